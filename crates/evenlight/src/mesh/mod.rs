@@ -1,0 +1,130 @@
+//! The cage: positions and faces as a file says them, and the checked form of them.
+//!
+//! [`Mesh`] is what was read: nothing about it is promised. [`Cage`] is a mesh that passed
+//! [`check`]: an orientable surface, possibly with boundary, whose connectivity
+//! ([`Topology`]) can be walked without a case that fails. Everything behind the cage is
+//! total: it cannot meet bad input any more.
+
+mod check;
+pub mod isolation;
+mod refine;
+mod topology;
+
+pub use check::{Cage, CheckError, MeshError, Warning};
+pub use topology::{HalfEdgeId, Ring, Topology};
+
+use crate::point::Point;
+
+/// The number of a vertex, counted from 0 in the order of the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct VertexId(pub u32);
+
+/// The number of a face, counted from 0 in the order of the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FaceId(pub u32);
+
+impl VertexId {
+    /// The number as an index into an array.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl FaceId {
+    /// The number as an index into an array.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Positions and faces, as read; [`Cage::new`] checks them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// The position of every vertex.
+    pub positions: Vec<Point>,
+    /// The corners of every face, counter-clockwise seen from outside.
+    pub faces: Faces,
+}
+
+impl Mesh {
+    /// Builds a mesh from positions and lists of vertex numbers (from 0).
+    pub fn new<F: AsRef<[u32]>>(positions: Vec<Point>, faces: impl IntoIterator<Item = F>) -> Self {
+        let mut list = Faces::default();
+        for face in faces {
+            list.push(face.as_ref().iter().map(|&v| VertexId(v)));
+        }
+        Self { positions, faces: list }
+    }
+}
+
+/// The corners of all faces, one after the other, each counter-clockwise.
+///
+/// ```
+/// use evenlight::mesh::{FaceId, Faces, VertexId};
+///
+/// let mut faces = Faces::default();
+/// faces.push([0, 1, 2].map(VertexId));
+/// faces.push([2, 1, 3, 4].map(VertexId));
+/// assert_eq!(faces.len(), 2);
+/// assert_eq!(faces.corners(FaceId(1)), [2, 1, 3, 4].map(VertexId));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Faces {
+    /// Where each face begins in `corners`; one entry more than there are faces.
+    offsets: Vec<u32>,
+    corners: Vec<VertexId>,
+}
+
+impl Default for Faces {
+    fn default() -> Self {
+        Self { offsets: vec![0], corners: Vec::new() }
+    }
+}
+
+impl Faces {
+    /// Appends a face.
+    ///
+    /// # Panics
+    ///
+    /// If all faces together have 2^32 corners or more.
+    pub fn push(&mut self, corners: impl IntoIterator<Item = VertexId>) {
+        self.corners.extend(corners);
+        let end = u32::try_from(self.corners.len()).expect("a cage has fewer than 2^32 corners");
+        self.offsets.push(end);
+    }
+
+    /// The number of faces.
+    pub fn len(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Whether there is no face.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The corners of `face`.
+    pub fn corners(&self, face: FaceId) -> &[VertexId] {
+        &self.corners[self.corner_range(face)]
+    }
+
+    /// All faces in order.
+    pub fn iter(&self) -> impl Iterator<Item = &[VertexId]> {
+        self.offsets.windows(2).map(|w| &self.corners[w[0] as usize..w[1] as usize])
+    }
+
+    /// The numbers of all faces.
+    pub fn ids(&self) -> impl Iterator<Item = FaceId> + use<> {
+        (0..self.len() as u32).map(FaceId)
+    }
+
+    /// All corners of all faces, one after the other.
+    pub fn all_corners(&self) -> &[VertexId] {
+        &self.corners
+    }
+
+    /// Where the corners of `face` stand in [`Faces::all_corners`].
+    pub(crate) fn corner_range(&self, face: FaceId) -> std::ops::Range<usize> {
+        self.offsets[face.index()] as usize..self.offsets[face.index() + 1] as usize
+    }
+}

@@ -1,0 +1,126 @@
+//! Tensor-product patches in Bernstein-Bezier (BB) form.
+//!
+//! A patch of degree (`du`, `dv`) is the map
+//!
+//! ```text
+//! p(u,v) = sum_ij b_ij B_i^du(u) B_j^dv(v),   B_i^d(t) = C(d,i) (1-t)^(d-i) t^i,
+//! ```
+//!
+//! for (u,v) in the unit square. Coefficients are stored with `j`, the `v` index, fastest, as
+//! BezierView and most exchange formats have them:
+//!
+//! ```text
+//! v ^  b02 b12 b22
+//!   |  b01 b11 b21      index(i, j) = i (dv + 1) + j
+//!   |  b00 b10 b20
+//!   +-------------> u
+//! ```
+
+pub mod basis;
+mod jet;
+
+pub use jet::{Jet, SurfacePoint};
+
+use crate::point::{Point, add_scaled};
+
+/// The highest degree of a patch in one parameter.
+pub const MAX_DEGREE: usize = 6;
+
+/// A tensor-product patch in Bernstein-Bezier form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    degree: [usize; 2],
+    coefs: Vec<Point>,
+}
+
+impl Patch {
+    /// Builds a patch of degree `[du, dv]` from its BB coefficients, `v` index fastest.
+    ///
+    /// # Panics
+    ///
+    /// If there are not `(du + 1) (dv + 1)` coefficients, or a degree is above [`MAX_DEGREE`].
+    pub fn new(degree: [usize; 2], coefs: Vec<Point>) -> Self {
+        let [du, dv] = degree;
+        assert!(du <= MAX_DEGREE && dv <= MAX_DEGREE, "degree ({du}, {dv}) is too high");
+        assert_eq!(coefs.len(), (du + 1) * (dv + 1), "a patch of degree ({du}, {dv})");
+        Self { degree, coefs }
+    }
+
+    /// The degree in `u` and in `v`.
+    pub fn degree(&self) -> [usize; 2] {
+        self.degree
+    }
+
+    /// The BB coefficient `b_ij`.
+    pub fn coef(&self, i: usize, j: usize) -> Point {
+        self.coefs[i * (self.degree[1] + 1) + j]
+    }
+
+    /// All BB coefficients, `v` index fastest.
+    pub fn coefs(&self) -> &[Point] {
+        &self.coefs
+    }
+
+    /// Position and derivatives at (`u`, `v`). Outside the unit square the polynomial is
+    /// extrapolated.
+    ///
+    /// ```
+    /// use evenlight::patch::Patch;
+    ///
+    /// // The bilinear patch p(u,v) = (u, v, uv).
+    /// let p = Patch::new([1, 1], vec![[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 1.]]);
+    /// let jet = p.jet(0.5, 0.25);
+    /// assert_eq!(jet.p, [0.5, 0.25, 0.125]);
+    /// assert_eq!(jet.duv, [0.0, 0.0, 1.0]);
+    /// ```
+    pub fn jet(&self, u: f64, v: f64) -> Jet {
+        let bu = basis::bernstein(self.degree[0], u);
+        let bv = basis::bernstein(self.degree[1], v);
+        let mut jet = Jet::default();
+        for (i, row) in self.coefs.chunks_exact(self.degree[1] + 1).enumerate() {
+            let mut along_v = [[0.0; 3]; 3];
+            for (j, &b) in row.iter().enumerate() {
+                for (k, sum) in along_v.iter_mut().enumerate() {
+                    add_scaled(sum, bv[k][j], b);
+                }
+            }
+            add_scaled(&mut jet.p, bu[0][i], along_v[0]);
+            add_scaled(&mut jet.du, bu[1][i], along_v[0]);
+            add_scaled(&mut jet.dv, bu[0][i], along_v[1]);
+            add_scaled(&mut jet.duu, bu[2][i], along_v[0]);
+            add_scaled(&mut jet.duv, bu[1][i], along_v[1]);
+            add_scaled(&mut jet.dvv, bu[0][i], along_v[2]);
+        }
+        jet
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// p(u,v) = (u, v, u^2 - v^2): a saddle, whose bi-2 coefficients are known in closed form.
+    fn saddle() -> Patch {
+        let square = [0.0, 0.0, 1.0]; // t^2 in BB form of degree 2
+        let coef = |i: usize, j: usize| [i as f64 / 2.0, j as f64 / 2.0, square[i] - square[j]];
+        Patch::new([2, 2], (0..3).flat_map(|i| (0..3).map(move |j| coef(i, j))).collect())
+    }
+
+    #[test]
+    fn reproduces_the_saddle_with_its_derivatives() {
+        for (u, v) in [(0.0, 0.0), (0.25, 0.5), (1.0, 0.75), (0.3, 0.7)] {
+            let jet = saddle().jet(u, v);
+            let expected = Jet {
+                p: [u, v, u * u - v * v],
+                du: [1.0, 0.0, 2.0 * u],
+                dv: [0.0, 1.0, -2.0 * v],
+                duu: [0.0, 0.0, 2.0],
+                duv: [0.0; 3],
+                dvv: [0.0, 0.0, -2.0],
+            };
+            for (a, b) in jet.rows().iter().zip(expected.rows()) {
+                assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-14), "{jet:?} at ({u}, {v})");
+            }
+        }
+    }
+}
