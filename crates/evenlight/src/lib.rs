@@ -1,13 +1,20 @@
 //! Fair subdivision surfaces from quad meshes.
 
+pub mod analyse;
+pub mod io;
 pub mod mesh;
+mod net;
 pub mod patch;
+#[cfg(feature = "picture")]
+pub mod picture;
 pub mod point;
+mod rings;
 pub mod scheme;
 pub mod surface;
+pub mod tessellate;
 
 pub use mesh::{Cage, FaceId, Mesh, VertexId};
+pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
 pub use scheme::{RuleSet, SchemeKind};
-pub use patch::SurfacePoint;
 pub use surface::{QuadId, Surface, SurfaceOptions};

@@ -1,0 +1,1 @@
+//! Interrogation of surfaces: curvature, continuity, spectra.

@@ -1,0 +1,1 @@
+//! Nets around an extraordinary point.

@@ -1,0 +1,1 @@
+//! Rings around an extraordinary point.
