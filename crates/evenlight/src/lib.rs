@@ -3,12 +3,13 @@
 pub mod analyse;
 pub mod io;
 pub mod mesh;
-mod net;
+pub mod net;
+mod parallel;
 pub mod patch;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod point;
-mod rings;
+pub mod rings;
 pub mod scheme;
 pub mod surface;
 pub mod tessellate;

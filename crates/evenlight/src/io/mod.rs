@@ -1,6 +1,8 @@
 //! Files: cages in, meshes and patches out.
 
 pub mod bv;
+mod digits;
 pub mod obj;
+pub mod obj_out;
 pub mod ply;
 pub mod stl;

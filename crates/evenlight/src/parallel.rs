@@ -1,0 +1,28 @@
+//! The one place where threads are started: a map over indices that keeps the order.
+//!
+//! Each result depends on its index alone and lands in its own slot, so the outcome is the
+//! same bytes with one thread, with many, and without the feature `parallel`.
+
+/// `[f(0), f(1), .., f(len - 1)]`, with feature `parallel` on all threads of rayon's pool.
+#[cfg(feature = "parallel")]
+pub(crate) fn map_indexed<T: Send>(len: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    use rayon::prelude::*;
+    (0..len).into_par_iter().map(&f).collect()
+}
+
+/// `[f(0), f(1), .., f(len - 1)]`, with feature `parallel` on all threads of rayon's pool.
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn map_indexed<T: Send>(len: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    (0..len).map(f).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keeps_the_order() {
+        assert!(map_indexed(0, |k| k).is_empty());
+        assert!(map_indexed(10_000, |k| 3 * k).iter().enumerate().all(|(k, &x)| x == 3 * k));
+    }
+}

@@ -1,1 +1,0 @@
-//! Triangle meshes of the limit surface.

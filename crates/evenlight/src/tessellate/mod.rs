@@ -1,0 +1,337 @@
+//! Watertight triangle meshes of the limit surface.
+//!
+//! Every edge of the cage becomes `rate` segments and every parametric quad a grid of cells,
+//! each cut into two triangles. All vertices lie on the limit surface, with its exact normal
+//! and curvature; only the inside of the triangles is an approximation.
+//!
+//! ```text
+//!  d---o---o---c     rate 3: 4 x 4 vertices on a face with four corners; those on an edge
+//!  | \ | / | / |     are vertices of the neighbour as well
+//!  o---o---o---o
+//!  | / | / | / |     a cell is cut along its shorter diagonal; where both are equal, along
+//!  o---o---o---o     the one that points to the middle of the quad
+//!  | / | / | \ |
+//!  a---o---o---b
+//! ```
+//!
+//! What is promised: vertices shared by quads are one vertex, computed once, from the quad
+//! with the lowest number among them; so there are no cracks and no T-junctions, and a closed
+//! cage gives a closed mesh of the same genus. Triangles run counter-clockwise seen from
+//! outside. The result is the same bytes whatever the number of threads.
+//!
+//! What is not: the triangles may intersect where the surface does. Faces without a surface
+//! are left out, and where two faces with a surface share nothing but a vertex, so do their
+//! triangles.
+
+mod nodes;
+
+use std::collections::BTreeMap;
+
+use crate::parallel::map_indexed;
+use crate::patch::SurfacePoint;
+use crate::point::{Point, Vector, dot, sub};
+use crate::surface::{QuadId, Surface};
+use nodes::{Grid, Nodes};
+
+/// Triangles on the limit surface, with what the surface says at their vertices.
+///
+/// The first five lists have one entry for each vertex. A vertex takes 88 bytes, a triangle 12.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriangleMesh {
+    /// Points of the surface, in the units of the cage.
+    pub positions: Vec<Point>,
+    /// The unit normals of the surface, outward; NaN where the surface has none.
+    pub normals: Vec<Vector>,
+    /// The Gauss curvature K in 1/length^2; see [`tessellate`] for extraordinary points.
+    pub gauss: Vec<f64>,
+    /// The mean curvature H in 1/length, negative on convex bodies.
+    pub mean: Vec<f64>,
+    /// Where each vertex was computed: the lowest quad that it lies in.
+    pub origins: Vec<VertexOrigin>,
+    /// The corners of the triangles, as indices of vertices, counter-clockwise.
+    pub triangles: Vec<[u32; 3]>,
+    /// The quads with a surface, in order, and the triangles of each.
+    pub quads: Vec<QuadTriangles>,
+    /// The number of segments along every edge of the cage.
+    pub rate: usize,
+}
+
+/// The parameters at which a vertex was computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexOrigin {
+    /// The parametric quad.
+    pub quad: QuadId,
+    /// The parameters (u, v) in it, in [0, 1].
+    pub uv: [f64; 2],
+}
+
+/// The triangles of one quad: two for each of its cells, row by row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct QuadTriangles {
+    /// The parametric quad.
+    pub quad: QuadId,
+    /// The number of cells along each side; the quad has twice its square of triangles.
+    pub segments: u32,
+    /// The first of its triangles.
+    pub first: usize,
+}
+
+/// A triangle in the parameters of its quad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParametricTriangle {
+    /// The parametric quad.
+    pub quad: QuadId,
+    /// The parameters (u, v) of the three corners, counter-clockwise.
+    pub uv: [[f64; 2]; 3],
+}
+
+/// Why no triangle mesh could be made.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TessellateError {
+    /// The rate is zero.
+    #[error("the rate must be 1 or more")]
+    ZeroRate,
+    /// The vertices cannot be numbered with 32 bits.
+    #[error("rate {rate} gives more than {} vertices", u32::MAX - 1)]
+    TooManyVertices {
+        /// The rate, after rounding.
+        rate: usize,
+    },
+}
+
+/// Cuts the surface into triangles, with `rate` segments along every edge of the cage.
+///
+/// If a face with a surface has other than four corners, `rate` is rounded up to an even
+/// number, since each of the quads of such a face covers half of two edges;
+/// [`TriangleMesh::rate`] is the rate used. A closed cage of quads gives 2 rate^2 triangles
+/// for each face.
+///
+/// Normals and curvatures are those of the surface, not of the triangles. At an extraordinary
+/// point the vertex is the limit point with the limit normal; curvature does not exist there,
+/// and the mesh has instead the mean of the values in the middle of the cells around it.
+///
+/// # Errors
+///
+/// If `rate` is 0, or if there would be 2^32 - 1 vertices or more. Running out of memory is
+/// not an error that is reported.
+pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, TessellateError> {
+    let nodes = Nodes::number(surface.cage().topology(), rate_used(surface, rate)?, |f| {
+        !surface.is_omitted(f)
+    })?;
+    let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
+    mesh.origins = origins(surface, &nodes);
+    mesh.evaluate(surface);
+    mesh.fill_missing_curvature(surface, &nodes);
+    mesh.triangulate(surface, &nodes);
+    Ok(mesh)
+}
+
+/// The rate rounded up to what the n-gons need.
+fn rate_used(surface: &Surface, rate: usize) -> Result<usize, TessellateError> {
+    let faces = surface.cage().topology().faces();
+    let has_ngon = || faces.ids().any(|f| faces.corners(f).len() != 4 && !surface.is_omitted(f));
+    match rate {
+        0 => Err(TessellateError::ZeroRate),
+        _ if u32::try_from(rate).is_err() => Err(TessellateError::TooManyVertices { rate }),
+        _ if rate % 2 == 1 && has_ngon() => Ok(rate + 1),
+        _ => Ok(rate),
+    }
+}
+
+/// The quad of a grid.
+fn quad_of(surface: &Surface, grid: Grid) -> QuadId {
+    surface.quad(grid.face, grid.corner).expect("the grids are those of the surface's quads")
+}
+
+/// The first grid, in the order of the quads, in which each node lies.
+fn origins(surface: &Surface, nodes: &Nodes) -> Vec<VertexOrigin> {
+    const UNKNOWN: VertexOrigin = VertexOrigin { quad: QuadId(u32::MAX), uv: [0.0; 2] };
+    let mut origins = vec![UNKNOWN; nodes.len()];
+    for grid in nodes.grids() {
+        let quad = quad_of(surface, grid);
+        for (i, j) in grid.nodes() {
+            let origin = &mut origins[nodes.node(grid, i, j) as usize];
+            if origin.quad == UNKNOWN.quad {
+                *origin = VertexOrigin { quad, uv: grid.parameters(i as f64, j as f64) };
+            }
+        }
+    }
+    origins
+}
+
+fn eval(surface: &Surface, quad: QuadId, [u, v]: [f64; 2]) -> SurfacePoint {
+    surface.eval(quad, u, v).expect("quads of omitted faces have no grid")
+}
+
+impl TriangleMesh {
+    /// Computes all vertices, a slice at a time: what the surface answers is twice as large as
+    /// what is kept of it.
+    fn evaluate(&mut self, surface: &Surface) {
+        const SLICE: usize = 1 << 16;
+        self.positions.reserve_exact(self.origins.len());
+        self.normals.reserve_exact(self.origins.len());
+        self.gauss.reserve_exact(self.origins.len());
+        self.mean.reserve_exact(self.origins.len());
+        for slice in self.origins.chunks(SLICE) {
+            let points = map_indexed(slice.len(), |k| eval(surface, slice[k].quad, slice[k].uv));
+            self.positions.extend(points.iter().map(|p| p.jet.p));
+            self.normals.extend(points.iter().map(|p| p.normal));
+            self.gauss.extend(points.iter().map(|p| p.gauss));
+            self.mean.extend(points.iter().map(|p| p.mean));
+        }
+    }
+
+    /// Gives the extraordinary points, which are corners of quads, a curvature to show: the
+    /// mean over the middles of the cells around, which do not depend on how cells are cut.
+    fn fill_missing_curvature(&mut self, surface: &Surface, nodes: &Nodes) {
+        let mut around: BTreeMap<u32, Vec<SurfacePoint>> = BTreeMap::new();
+        for grid in nodes.grids() {
+            let m = grid.segments;
+            for (i, j) in [(0, 0), (m, 0), (m, m), (0, m)] {
+                let node = nodes.node(grid, i, j);
+                if self.gauss[node as usize].is_nan() {
+                    let middle = |i: usize| if i == 0 { 0.5 } else { i as f64 - 0.5 };
+                    let uv = grid.parameters(middle(i), middle(j));
+                    around.entry(node).or_default().push(eval(surface, quad_of(surface, grid), uv));
+                }
+            }
+        }
+        for (node, points) in around {
+            let n = points.len() as f64;
+            self.gauss[node as usize] = points.iter().map(|p| p.gauss).sum::<f64>() / n;
+            self.mean[node as usize] = points.iter().map(|p| p.mean).sum::<f64>() / n;
+        }
+    }
+
+    fn triangulate(&mut self, surface: &Surface, nodes: &Nodes) {
+        let num_cells: usize = nodes.grids().map(|grid| grid.segments * grid.segments).sum();
+        self.triangles.reserve_exact(2 * num_cells);
+        for grid in nodes.grids() {
+            let (quad, first) = (quad_of(surface, grid), self.triangles.len());
+            self.quads.push(QuadTriangles { quad, segments: grid.segments as u32, first });
+            for (i, j) in grid.cells() {
+                let corners = cell_corners(i, j).map(|(i, j)| nodes.node(grid, i, j));
+                let points = corners.map(|v| self.positions[v as usize]);
+                let diagonal = Diagonal::choose(points, i, j, grid.segments);
+                self.triangles.extend(diagonal.cut(corners));
+            }
+        }
+    }
+
+    /// Triangle `triangle` in the parameters of its quad, by a binary search over the quads.
+    ///
+    /// Vertices on an edge may have their [`origins`](Self::origins) in another quad; this
+    /// tells all three corners in one.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such triangle.
+    pub fn parametric_triangle(&self, triangle: usize) -> ParametricTriangle {
+        assert!(triangle < self.triangles.len(), "there is no triangle {triangle}");
+        let after = self.quads.partition_point(|q| q.first <= triangle);
+        self.parametric_triangle_of(self.quads[after - 1], triangle)
+    }
+
+    /// All triangles in the parameters of their quads, in the order of
+    /// [`triangles`](Self::triangles).
+    pub fn parametric_triangles(&self) -> impl Iterator<Item = ParametricTriangle> {
+        self.quads.iter().flat_map(move |&q| {
+            let m = q.segments as usize;
+            let range = q.first..q.first + 2 * m * m;
+            range.map(move |triangle| self.parametric_triangle_of(q, triangle))
+        })
+    }
+
+    fn parametric_triangle_of(&self, q: QuadTriangles, triangle: usize) -> ParametricTriangle {
+        let (cell, half) = ((triangle - q.first) / 2, (triangle - q.first) % 2);
+        let m = q.segments as usize;
+        let [a, b] = [0, 1].map(|k| self.triangles[q.first + 2 * cell + k]);
+        let uv = |(i, j)| [i as f64 / f64::from(q.segments), j as f64 / f64::from(q.segments)];
+        let corners = cell_corners(cell % m, cell / m).map(uv);
+        ParametricTriangle { quad: q.quad, uv: Diagonal::of(a, b).cut(corners)[half] }
+    }
+}
+
+/// The corners of cell (i, j), counter-clockwise.
+fn cell_corners(i: usize, j: usize) -> [(usize, usize); 4] {
+    [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+}
+
+/// The diagonal along which a cell with the corners a b c d is cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Diagonal {
+    /// From a to c, corners (i, j) and (i+1, j+1).
+    Rising,
+    /// From b to d, corners (i+1, j) and (i, j+1).
+    Falling,
+}
+
+impl Diagonal {
+    /// The shorter diagonal; if they are equal, the one that points to the middle of the quad.
+    ///
+    /// The mesh of a symmetric cage is hence symmetric up to numbering, but for cells in the
+    /// middle row or column of an odd number: they have no such diagonal, and with equal
+    /// diagonals are cut along the rising one.
+    fn choose([a, b, c, d]: [Point; 4], i: usize, j: usize, segments: usize) -> Self {
+        /// Squared lengths closer than this, relatively, count as equal: far above rounding,
+        /// so that it does not choose, and far below what changes the shape of a triangle.
+        const TIE: f64 = 1e-6;
+        let length_sq = |a, b| dot(sub(a, b), sub(a, b));
+        let (rising, falling) = (length_sq(a, c), length_sq(b, d));
+        let from_middle = |i: usize| 2 * i as i64 + 1 - segments as i64;
+        if (rising - falling).abs() > TIE * (rising + falling) {
+            if rising < falling { Self::Rising } else { Self::Falling }
+        } else if from_middle(i).signum() * from_middle(j).signum() < 0 {
+            Self::Falling
+        } else {
+            Self::Rising
+        }
+    }
+
+    /// The two triangles of the cell, counter-clockwise.
+    fn cut<T: Copy>(self, [a, b, c, d]: [T; 4]) -> [[T; 3]; 2] {
+        match self {
+            Self::Rising => [[a, b, c], [a, c, d]],
+            Self::Falling => [[a, b, d], [b, c, d]],
+        }
+    }
+
+    /// The diagonal of which [`Diagonal::cut`] made these triangles: only with the rising one
+    /// do both begin at the same corner.
+    fn of(first: [u32; 3], second: [u32; 3]) -> Self {
+        if first[0] == second[0] { Self::Rising } else { Self::Falling }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shorter_diagonal_is_cut() {
+        let long_rising = [[0., 0., 0.], [1., 0., 0.], [2., 1., 0.], [1., 1., 0.]];
+        assert_eq!(Diagonal::choose(long_rising, 0, 0, 1), Diagonal::Falling);
+        let long_falling = [[1., 0., 0.], [2., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+        assert_eq!(Diagonal::choose(long_falling, 0, 1, 2), Diagonal::Rising);
+    }
+
+    #[test]
+    fn the_cut_of_a_square_grid_has_its_symmetries() {
+        let square = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+        for m in [2, 4, 8] {
+            for (i, j) in (0..m).flat_map(|i| (0..m).map(move |j| (i, j))) {
+                let cut = Diagonal::choose(square, i, j, m);
+                assert_eq!(cut, Diagonal::choose(square, j, i, m), "mirrored in the diagonal");
+                assert_ne!(cut, Diagonal::choose(square, m - 1 - i, j, m), "mirrored in u");
+            }
+        }
+    }
+
+    #[test]
+    fn the_diagonal_is_known_from_its_triangles() {
+        for diagonal in [Diagonal::Rising, Diagonal::Falling] {
+            let [a, b] = diagonal.cut([7, 3, 9, 1]);
+            assert_eq!(Diagonal::of(a, b), diagonal);
+        }
+    }
+}
