@@ -6,11 +6,14 @@
 //! total: it cannot meet bad input any more.
 
 mod check;
+mod fault;
 pub mod isolation;
 mod refine;
 mod topology;
 
-pub use check::{Cage, CheckError, MeshError, Warning};
+pub use check::Cage;
+pub(crate) use fault::{MAX_LISTED, one_per_line};
+pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Warning};
 pub use topology::{HalfEdgeId, Ring, Topology};
 
 use crate::point::Point;

@@ -1,0 +1,249 @@
+//! What can be wrong with a line, and how its author is told.
+
+use std::fmt;
+
+use crate::mesh::{MAX_LISTED, one_per_line};
+
+/// Why a file cannot be read: its faulty lines.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError {
+    /// The first faulty lines in order, 20 at most and at least one.
+    pub faults: Vec<LineFault>,
+    /// The number of faulty lines after those.
+    pub num_more: usize,
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let listed: Vec<String> = self.faults.iter().map(LineFault::to_string).collect();
+        let total = listed.len() + self.num_more;
+        f.write_str(&one_per_line(listed, total))
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// A fault of a line; the first one if it has several.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LineFault {
+    /// The line on which the vertex or face begins, from 1.
+    pub line: u32,
+    /// What the line describes, if it matters.
+    pub element: Option<Element>,
+    /// What is wrong.
+    pub reason: Reason,
+}
+
+impl fmt::Display for LineFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.element {
+            Some(element) => write!(f, "line {}, {element}: {}", self.line, self.reason),
+            None => write!(f, "line {}: {}", self.line, self.reason),
+        }
+    }
+}
+
+/// What a line describes, with its number in the file, from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// A vertex.
+    Vertex(u64),
+    /// A face.
+    Face(u64),
+}
+
+impl fmt::Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Vertex(number) => write!(f, "vertex {number}"),
+            Self::Face(number) => write!(f, "face {number}"),
+        }
+    }
+}
+
+/// What the numbers in a corner of a face are of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// Vertices, `v`.
+    Vertex,
+    /// Texture coordinates, `vt`.
+    Texture,
+    /// Normals, `vn`.
+    Normal,
+}
+
+impl fmt::Display for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Vertex => "vertex",
+            Self::Texture => "texture coordinate",
+            Self::Normal => "normal",
+        })
+    }
+}
+
+/// What is wrong with a line. A `text` is of the file, shortened, with U+FFFD for bytes that
+/// are not text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Reason {
+    /// A coordinate is not a number.
+    #[error("`{text}` is not a number: correct it, as in 1.5 or -2e-3")]
+    NotANumber {
+        /// The word.
+        text: String,
+    },
+    /// A vertex has fewer than three coordinates.
+    #[error("`{text}` has {found} of the 3 coordinates: add those that are missing")]
+    TooFewCoordinates {
+        /// The line.
+        text: String,
+        /// How many there are, 0 to 2.
+        found: usize,
+    },
+    /// A corner of a face has not the form of one.
+    #[error("`{text}` is not a corner: correct it, as in 1, 1/2, 1//3 or 1/2/3")]
+    NotACorner {
+        /// The word.
+        text: String,
+    },
+    /// A corner has the number 0.
+    #[error("`{text}` asks for {channel} 0, but the first has number 1: correct the number")]
+    IndexZero {
+        /// The corner.
+        text: String,
+        /// What the number is of.
+        channel: Channel,
+    },
+    /// A corner has a number that is greater than how many there are in the file.
+    #[error(
+        "`{text}` asks for {channel} {index}, but the file has {count}: correct the number or \
+         add what is missing"
+    )]
+    IndexTooLarge {
+        /// The corner.
+        text: String,
+        /// What the number is of.
+        channel: Channel,
+        /// The number; the largest of 64 bits if it is larger.
+        index: i64,
+        /// How many there are.
+        count: usize,
+    },
+    /// A corner counts back past the beginning.
+    #[error(
+        "`{text}` asks for {channel} {index}, but {count} come before it: correct the number or \
+         move the line to after what it asks for"
+    )]
+    IndexBeforeFirst {
+        /// The corner.
+        text: String,
+        /// What the number is of.
+        channel: Channel,
+        /// The number, which is negative.
+        index: i64,
+        /// How many come before it.
+        count: usize,
+    },
+    /// There is more than can be numbered with 32 bits.
+    #[error("there are more than {limit} {what}: split the file")]
+    TooMany {
+        /// What there is too much of: "lines", "vertices", "faces" or "corners".
+        what: &'static str,
+        /// How many there may be.
+        limit: usize,
+    },
+}
+
+/// Collects the faults of a file: keeps the first few, counts the others.
+#[derive(Debug, Default)]
+pub(super) struct Faults {
+    kept: Vec<LineFault>,
+    num_more: usize,
+}
+
+impl Faults {
+    /// Adds a fault. Faults must come in the order of their lines.
+    pub fn push(&mut self, fault: LineFault) {
+        if self.kept.len() < MAX_LISTED {
+            self.kept.push(fault);
+        } else {
+            self.num_more += 1;
+        }
+    }
+
+    /// All faults of both, in the order of their lines.
+    pub fn merge(mut self, other: Self) -> Self {
+        self.kept.extend(other.kept);
+        self.kept.sort_by_key(|fault| fault.line);
+        let extra = self.kept.len().saturating_sub(MAX_LISTED);
+        self.kept.truncate(MAX_LISTED);
+        Self { kept: self.kept, num_more: self.num_more + other.num_more + extra }
+    }
+
+    /// The error that lists the faults, if there are any.
+    pub fn into_result(self) -> Result<(), ReadError> {
+        if self.kept.is_empty() {
+            return Ok(());
+        }
+        Err(ReadError { faults: self.kept, num_more: self.num_more })
+    }
+}
+
+/// `bytes` as text for a message: 40 characters at most, none of which could upset a terminal.
+pub(super) fn excerpt(bytes: &[u8]) -> String {
+    const MAX_CHARS: usize = 40;
+    // A character has up to four bytes; more of them tell that something was left out.
+    let head = &bytes[..bytes.len().min(4 * (MAX_CHARS + 1))];
+    let text = String::from_utf8_lossy(head);
+    let mut shown: String = text.chars().take(MAX_CHARS).map(printable).collect();
+    if text.chars().nth(MAX_CHARS).is_some() {
+        shown += "...";
+    }
+    shown
+}
+
+fn printable(c: char) -> char {
+    match c {
+        '\t' | '\n' | '\r' => ' ',
+        // Without width, or turning the direction of writing.
+        '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => {
+            char::REPLACEMENT_CHARACTER
+        }
+        c if c.is_control() => char::REPLACEMENT_CHARACTER,
+        c => c,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fault(line: u32) -> LineFault {
+        let reason = Reason::TooMany { what: "lines", limit: 1 };
+        LineFault { line, element: None, reason }
+    }
+
+    #[test]
+    fn the_first_twenty_of_merged_faults_are_kept() {
+        let (mut even, mut odd) = (Faults::default(), Faults::default());
+        for line in 0..50 {
+            even.push(fault(2 * line));
+            odd.push(fault(2 * line + 1));
+        }
+        let error = even.merge(odd).into_result().unwrap_err();
+        let lines: Vec<u32> = error.faults.iter().map(|f| f.line).collect();
+        assert_eq!(lines, (0..20).collect::<Vec<_>>());
+        assert_eq!(error.num_more, 80);
+        assert_eq!(error.to_string().lines().count(), 22);
+    }
+
+    #[test]
+    fn excerpts_are_short_and_harmless() {
+        assert_eq!(excerpt(b"v 1\t2"), "v 1 2");
+        assert_eq!(excerpt(b"\x1b[31m\xff"), "\u{fffd}[31m\u{fffd}");
+        assert_eq!(excerpt("\u{202e}a".as_bytes()), "\u{fffd}a");
+        assert_eq!(excerpt(&[b'x'; 40]), "x".repeat(40));
+        assert_eq!(excerpt(&[b'x'; 41]), "x".repeat(40) + "...");
+        assert_eq!(excerpt("\u{1f600}".repeat(50).as_bytes()), "\u{1f600}".repeat(40) + "...");
+    }
+}
