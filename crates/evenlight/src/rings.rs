@@ -1,1 +1,377 @@
-//! Rings around an extraordinary point.
+//! The surface around one extraordinary point: rings of patches at any depth.
+//!
+//! Sector `s` is the map (a,b) -> space on the unit square, a along line s-1, b along line s.
+//! It is cut into L-shaped pieces, one per ring:
+//!
+//! ```text
+//!  b ^
+//!  1 +-------+---+---+   ring l = 0, 1, 2, ... covers 2^-(l+1) < max(a,b) <= 2^-l
+//!    |       |       |   with three patches (see `scheme::rules`)
+//!    |       | ring 0|
+//! .5 +---+---+       +
+//!    | r 1   |       |
+//!    +-+-+   |       |
+//!    |_|_|___|_______|--> a
+//!    0      .5       1
+//! ```
+//!
+//! **Accuracy at depth.** All nets of a scheme shrink towards the limit point c_0: the extent
+//! in the tangent plane by lambda per ring, the height above it by about lambda^2. In world
+//! coordinates curvature would drown in rounding after some twenty rings. Therefore nets are
+//! kept in a frame of the limit tangent plane at c_0, the plane coordinates divided by
+//! lambda^l and the height by lambda^(2 l):
+//!
+//! ```text
+//!   point = c_0 + F (sigma X, sigma Y, sigma zeta Z),   sigma = zeta = lambda^l.
+//! ```
+//!
+//! X, Y, Z stay of the same size for ever, the factors cancel in the curvatures, and ring 1000 is
+//! as exact as ring 1. The one thing to guard is that rounding must not bring the part that
+//! shrinks by lambda back into Z: it is removed in every step.
+
+use std::sync::{Arc, OnceLock};
+
+use crate::net::{CNet, DNet};
+use crate::patch::{Jet, Patch, SurfacePoint};
+use crate::point::{Point, Vector, add_scaled, cross, dot, norm, scale, sub, unit};
+use crate::scheme::{PATCH_ORIGINS, RuleSet, Rules, SchemeKind, Subdominant};
+
+/// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
+/// valence.
+#[derive(Clone, Debug)]
+pub(crate) struct ValenceRules {
+    kind: SchemeKind,
+    rules: Rules,
+    subdominant: Subdominant,
+}
+
+impl ValenceRules {
+    /// `None` if the scheme has no rules for this valence.
+    pub(crate) fn new(kind: SchemeKind, set: RuleSet, valence: usize) -> Option<Self> {
+        let rules = kind.rules(set, valence)?;
+        let subdominant = Subdominant::new(&rules);
+        Some(Self { kind, rules, subdominant })
+    }
+}
+
+/// The surface around one extraordinary point.
+///
+/// ```
+/// use evenlight::{RuleSet, SchemeKind};
+/// use evenlight::rings::Rings;
+/// use evenlight::net::DNet;
+///
+/// // A flat d-net of valence 5, all nodes at the origin but for one: c_0 follows by eq. (4).
+/// let mut net = DNet { sectors: vec![[[0.0; 3]; 12]; 5] };
+/// net.sectors[0][11] = [0.0, 0.0, 1.0];
+/// let rings = Rings::from_dnet(&net, SchemeKind::EvolvingGuide, RuleSet::Generated).unwrap();
+/// assert_eq!(rings.valence(), 5);
+/// assert_eq!(rings.patches(0).len(), 15);
+/// ```
+#[derive(Debug)]
+pub struct Rings {
+    rules: Arc<ValenceRules>,
+    center: Point,
+    frame: Frame,
+    /// The net in front of ring 0, in the frame.
+    first: Vec<Vector>,
+    cached: [OnceLock<Box<Ring>>; CACHED_RINGS],
+}
+
+/// Rings that are kept once they were asked for. A parameter closer to the centre than
+/// 2^-32 is made of the last of them anew, in time proportional to its depth.
+const CACHED_RINGS: usize = 32;
+
+/// Where X, Y and Z point, and how Z shrinks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Frame {
+    axes: [Vector; 3],
+    /// Whether Z is the height over a tangent plane. There is none if the tangents are parallel
+    /// or zero (a cusp, or all points in one); then Z shrinks like X and Y.
+    has_plane: bool,
+}
+
+/// One ring in frame coordinates, scaled as the module says.
+#[derive(Clone, Debug)]
+struct Ring {
+    patches: Vec<Patch>,
+    /// The net in front of the next ring.
+    next: Vec<Vector>,
+}
+
+impl Rings {
+    /// The surface over a c-net; `None` if the scheme has no rules for its valence.
+    pub fn from_cnet(cnet: &CNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
+        let rules = Arc::new(ValenceRules::new(kind, set, cnet.valence())?);
+        Some(Self::with_rules(cnet, rules))
+    }
+
+    /// The surface over a d-net with c_0 by [`DNet::center`]; `None` if the scheme has no rules
+    /// for its valence or does not work on d-nets.
+    pub fn from_dnet(dnet: &DNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
+        let rules = Arc::new(ValenceRules::new(kind, set, dnet.valence())?);
+        let center = dnet.center();
+        let moved = dnet.sectors.iter().map(|s| s.map(|p| sub(p, center))).collect();
+        let state = kind.state_of_dnet(&DNet { sectors: moved })?;
+        Some(Self::start(state, center, rules))
+    }
+
+    pub(crate) fn with_rules(cnet: &CNet, rules: Arc<ValenceRules>) -> Self {
+        let center = rules.kind.limit_point(cnet);
+        let state = rules.kind.state(&cnet.relative_to(center));
+        Self::start(state, center, rules)
+    }
+
+    fn start(state: Vec<Vector>, center: Point, rules: Arc<ValenceRules>) -> Self {
+        let frame = Frame::new(&rules.subdominant, &state);
+        let mut first: Vec<Vector> = state.iter().map(|&p| frame.coordinates(p)).collect();
+        if frame.has_plane {
+            rules.subdominant.remove_from_coordinate(2, &mut first);
+        }
+        Self { rules, center, frame, first, cached: [const { OnceLock::new() }; CACHED_RINGS] }
+    }
+
+    /// The valence.
+    pub fn valence(&self) -> usize {
+        self.rules.rules.valence
+    }
+
+    /// The factor by which the rings shrink: the subdominant eigenvalue of the scheme.
+    pub fn lambda(&self) -> f64 {
+        self.rules.subdominant.lambda
+    }
+
+    /// The limit point c_0.
+    pub fn center(&self) -> Point {
+        self.center
+    }
+
+    /// The unit normal at the limit point; NaN if there is no tangent plane.
+    pub fn normal(&self) -> Vector {
+        if self.frame.has_plane { self.frame.axes[2] } else { [f64::NAN; 3] }
+    }
+
+    /// The three patches of every sector of ring `ring` (from 0), in the order sector, patch.
+    ///
+    /// Patch 0 covers [1/2,1] x [1/2,1] of the sector's (A,B) = 2^ring (a,b), patch 1
+    /// [1/2,1] x [0,1/2], patch 2 [0,1/2] x [1/2,1].
+    pub fn patches(&self, ring: usize) -> Vec<Patch> {
+        self.with_ring(ring, |r| r.patches.iter().map(|p| self.to_world(ring, p)).collect())
+    }
+
+    /// Patch `which` (0 to 2) of sector `s` of ring `ring`, numbered as in [`Rings::patches`].
+    pub fn patch(&self, ring: usize, s: usize, which: usize) -> Patch {
+        self.with_ring(ring, |r| self.to_world(ring, &r.patches[3 * s + which]))
+    }
+
+    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
+    ///
+    /// At (0,0) the position is the limit point and the normal the limit normal; derivatives
+    /// and curvature are NaN. Elsewhere curvature is exact to rounding at any depth.
+    /// Derivatives are in world coordinates; beyond ring 500 or so the second derivatives may
+    /// exceed the range of f64.
+    ///
+    /// # Panics
+    ///
+    /// If `s` is not below the valence or a, b are not in [0,1].
+    pub fn eval(&self, s: usize, a: f64, b: f64) -> SurfacePoint {
+        assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
+        if a.max(b) == 0.0 {
+            return self.at_center();
+        }
+        let ring = ring_of(a.max(b));
+        let [a, b] = [a, b].map(|x| scaled_up(x, ring));
+        let which = match (a > 0.5, b > 0.5) {
+            (true, true) => 0,
+            (true, false) => 1,
+            _ => 2,
+        };
+        self.eval_scaled(ring, s, which, [a, b])
+    }
+
+    /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patches`]; the
+    /// polynomial is extrapolated if (a,b) is not in the patch.
+    pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
+        self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring)))
+    }
+
+    /// A patch at (A,B) = 2^ring (a,b).
+    fn eval_scaled(&self, ring: usize, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
+        let [a0, b0] = PATCH_ORIGINS[which];
+        let at = [2.0 * (a - a0), 2.0 * (b - b0)];
+        let jet = self.with_ring(ring, |r| r.patches[3 * s + which].jet(at[0], at[1]));
+        self.in_world(ring, &jet)
+    }
+
+    fn at_center(&self) -> SurfacePoint {
+        let nan = [f64::NAN; 3];
+        let jet = Jet { p: self.center, du: nan, dv: nan, duu: nan, duv: nan, dvv: nan };
+        SurfacePoint { jet, normal: self.normal(), gauss: f64::NAN, mean: f64::NAN }
+    }
+
+    /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
+    /// in (a,b).
+    fn in_world(&self, ring: usize, jet: &Jet) -> SurfacePoint {
+        let lambda = self.lambda();
+        let sigma = power(lambda, ring);
+        let zeta = if self.frame.has_plane { sigma } else { 1.0 };
+        // A patch parameter runs 2^(ring+1) times as fast as a and b.
+        let first = 2.0 * power(2.0 * lambda, ring);
+        let second = 4.0 * power(4.0 * lambda, ring);
+        let world = |factor: f64, r: Vector| self.frame.world(factor, zeta, r);
+        let (normal, gauss, mean) = normal_and_curvature(jet, sigma, zeta);
+        SurfacePoint {
+            jet: Jet {
+                p: crate::point::add(self.center, world(sigma, jet.p)),
+                du: world(first, jet.du),
+                dv: world(first, jet.dv),
+                duu: world(second, jet.duu),
+                duv: world(second, jet.duv),
+                dvv: world(second, jet.dvv),
+            },
+            normal: self.frame.world(1.0, 1.0, normal),
+            gauss,
+            mean,
+        }
+    }
+
+    /// A patch of ring `ring` in world coordinates.
+    fn to_world(&self, ring: usize, patch: &Patch) -> Patch {
+        let sigma = power(self.lambda(), ring);
+        let zeta = if self.frame.has_plane { sigma } else { 1.0 };
+        let point = |&r: &Vector| crate::point::add(self.center, self.frame.world(sigma, zeta, r));
+        Patch::new(patch.degree(), patch.coefs().iter().map(point).collect())
+    }
+
+    /// Calls `f` with ring `ring`.
+    fn with_ring<T>(&self, ring: usize, f: impl FnOnce(&Ring) -> T) -> T {
+        if ring < CACHED_RINGS {
+            return f(self.cached_ring(ring));
+        }
+        let mut net = self.cached_ring(CACHED_RINGS - 1).next.clone();
+        for _ in CACHED_RINGS..ring {
+            net = self.normalised(self.rules.rules.refine(&net));
+        }
+        f(&self.ring_from(&net))
+    }
+
+    fn cached_ring(&self, ring: usize) -> &Ring {
+        self.cached[ring].get_or_init(|| {
+            let net = if ring == 0 { &self.first } else { &self.cached_ring(ring - 1).next };
+            Box::new(self.ring_from(net))
+        })
+    }
+
+    /// The ring behind `net`, and the net behind it.
+    fn ring_from(&self, net: &[Vector]) -> Ring {
+        let rules = &self.rules.rules;
+        let refined = rules.refine(net);
+        // The patches need both nets in one scale: that of `net`, which `refined` has still.
+        let patches = (0..3 * rules.valence)
+            .map(|k| {
+                let coefs = rules.patch(k / 3, k % 3, net, &refined);
+                Patch::new([rules.degree; 2], coefs)
+            })
+            .collect();
+        Ring { patches, next: self.normalised(refined) }
+    }
+
+    /// A refined net in its own scale.
+    fn normalised(&self, mut net: Vec<Vector>) -> Vec<Vector> {
+        let shrink = self.lambda();
+        let height = if self.frame.has_plane { shrink * shrink } else { shrink };
+        for p in &mut net {
+            *p = [p[0] / shrink, p[1] / shrink, p[2] / height];
+        }
+        if self.frame.has_plane {
+            self.rules.subdominant.remove_from_coordinate(2, &mut net);
+        }
+        net
+    }
+}
+
+impl Frame {
+    /// The frame of the limit tangent plane of a net.
+    fn new(subdominant: &Subdominant, net: &[Vector]) -> Self {
+        let [a, b] = subdominant.tangents(net);
+        let normal = cross(b, a);
+        let longer = dot(a, a).max(dot(b, b));
+        // Rounding leaves 1e-16 of the net's size in tangents that should vanish, and in the
+        // angle between tangents that should be parallel; a sound cage stays far above both.
+        let size = net.iter().map(|&p| dot(p, p)).fold(0.0, f64::max);
+        let has_plane = longer > 1e-24 * size && norm(normal) > 1e-12 * longer;
+        if !has_plane {
+            let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            return Self { axes, has_plane };
+        }
+        let normal = unit(normal);
+        let first = unit(if dot(a, a) > dot(b, b) { a } else { b });
+        Self { axes: [first, cross(normal, first), normal], has_plane }
+    }
+
+    fn coordinates(&self, p: Vector) -> Vector {
+        self.axes.map(|axis| dot(axis, p))
+    }
+
+    /// factor F (X, Y, zeta Z).
+    fn world(&self, factor: f64, zeta: f64, r: Vector) -> Vector {
+        let mut p = scale(factor * r[0], self.axes[0]);
+        add_scaled(&mut p, factor * r[1], self.axes[1]);
+        add_scaled(&mut p, factor * zeta * r[2], self.axes[2]);
+        p
+    }
+}
+
+/// Unit normal, Gauss and mean curvature of the map sigma (X, Y, zeta Z), whose jet is given
+/// without the factors.
+///
+/// With r = (X, Y, zeta Z), w = |r_u x r_v| and the determinants D_uu = det(X_u, X_v, X_uu) of the
+/// unscaled coordinates,
+///
+/// ```text
+/// K = (zeta/sigma)^2 (D_uu D_vv - D_uv^2) / w^4,
+/// H = (zeta/sigma) (E D_vv - 2 F D_uv + G D_uu) / (2 w^3),   E, F, G of r.
+/// ```
+///
+/// Nothing in it becomes small when sigma = zeta does.
+fn normal_and_curvature(jet: &Jet, sigma: f64, zeta: f64) -> (Vector, f64, f64) {
+    let flat = |r: Vector| [r[0], r[1], zeta * r[2]];
+    let (ru, rv) = (flat(jet.du), flat(jet.dv));
+    let (area, volume) = (cross(ru, rv), cross(jet.du, jet.dv));
+    let w = norm(area);
+    let [d_uu, d_uv, d_vv] = [jet.duu, jet.duv, jet.dvv].map(|r| dot(volume, r));
+    let (e, f, g) = (dot(ru, ru), dot(ru, rv), dot(rv, rv));
+    let ratio = if zeta == sigma { 1.0 } else { zeta / sigma };
+    let w2 = w * w;
+    let gauss = ratio * ratio * (d_uu * d_vv - d_uv * d_uv) / (w2 * w2);
+    let mean = ratio * (e * d_vv - 2.0 * f * d_uv + g * d_uu) / (2.0 * w2 * w);
+    (unit(area), gauss, mean)
+}
+
+/// The ring l with 2^-(l+1) < x <= 2^-l, for 0 < x <= 1.
+fn ring_of(x: f64) -> usize {
+    let (mut ring, mut x) = (0, x);
+    while x <= 0.5 {
+        x *= 2.0;
+        ring += 1;
+    }
+    ring
+}
+
+/// x 2^ring, exactly (2^ring itself may be out of range when x is denormal).
+fn scaled_up(x: f64, ring: usize) -> f64 {
+    (0..ring).fold(x, |x, _| 2.0 * x)
+}
+
+/// x^k by repeated squaring, in a fixed order of rounding.
+fn power(x: f64, k: usize) -> f64 {
+    let (mut result, mut square, mut k) = (1.0, x, k);
+    while k > 0 {
+        if k & 1 == 1 {
+            result *= square;
+        }
+        square *= square;
+        k >>= 1;
+    }
+    result
+}

@@ -1,6 +1,6 @@
 //! The surface as an object: position, derivatives and curvature at any (face, u, v).
 //!
-//! Every quad of the cage is one parametric quad (u,v) in the unit square; an n-gon is n of
+//! Every quad of the cage is one *parametric quad*, (u,v) in the unit square; an n-gon is n of
 //! them, one per corner:
 //!
 //! ```text
@@ -10,13 +10,22 @@
 //!     |           |
 //!  a (0,0) --- b (1,0)
 //! ```
+//!
+//! A parametric quad is one bi-3 patch, one sector of an extraordinary point, or four smaller
+//! pieces ([`isolation`](crate::mesh::isolation)). Evaluation finds the piece and its own
+//! parameters; all pieces are parts of one surface.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::mesh::isolation::{CORNERS, Piece, Place, Plan, cnet_vertices};
 use crate::mesh::{Cage, FaceId, VertexId};
-use crate::patch::{Patch, SurfacePoint};
-use crate::point::Point;
-use crate::scheme::{RuleSet, SchemeKind};
+use crate::net::CNet;
+use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
+use crate::patch::{Jet, Patch, SurfacePoint};
+use crate::point::{Point, Vector, add_scaled, scale};
+use crate::rings::{Rings, ValenceRules};
+use crate::scheme::{PATCH_ORIGINS, RuleSet, SchemeKind};
 
 /// The number of a parametric quad: all quads of face 0, then of face 1, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -25,7 +34,7 @@ pub struct QuadId(pub u32);
 /// How a surface is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SurfaceOptions {
-    /// The scheme at extraordinary vertices.
+    /// The scheme at extraordinary points.
     pub scheme: SchemeKind,
     /// The tables of that scheme.
     pub rules: RuleSet,
@@ -36,10 +45,16 @@ pub struct SurfaceOptions {
 pub struct Surface {
     cage: Arc<Cage>,
     options: SurfaceOptions,
+    plan: Plan,
+    /// The positions of the refined levels 1 and 2.
+    refined: Vec<Vec<Point>>,
+    /// The rings around every extraordinary point.
+    rings: Vec<Rings>,
+    points: Vec<ExtraordinaryPoint>,
 }
 
-/// An extraordinary point: an interior vertex of valence other than 4, or the centre of an
-/// n-gon.
+/// An extraordinary point of the surface: an interior vertex of valence other than 4, or the
+/// centre of an n-gon.
 #[derive(Clone, Debug)]
 pub struct ExtraordinaryPoint {
     /// The vertex of the cage; `None` for the centre of an n-gon.
@@ -52,17 +67,17 @@ pub struct ExtraordinaryPoint {
     pub level: usize,
     /// The limit point.
     pub position: Point,
-    /// The limit normal.
-    pub normal: Point,
-    /// The sectors counter-clockwise: the parametric quad of each, its corner (0 to 3) at this
-    /// point, and the part of the quad that it covers: (u,v) runs from that corner over
-    /// 2^-level' of the quad, where level' counts from the quad (0 to 2).
+    /// The limit normal; NaN if there is no tangent plane.
+    pub normal: Vector,
+    /// The sectors counter-clockwise, without those in omitted faces.
     pub sectors: Vec<Sector>,
 }
 
 /// The piece of a parametric quad that belongs to an extraordinary point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sector {
+    /// The number of the sector around its point.
+    pub index: usize,
     /// The parametric quad.
     pub quad: QuadId,
     /// The parameters of the extraordinary point in that quad.
@@ -81,8 +96,36 @@ pub enum Role {
     Ring(usize),
 }
 
+/// Where a polynomial patch lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchPlace {
+    /// What it is part of.
+    pub role: Role,
+    /// The parametric quad that it lies in.
+    pub quad: QuadId,
+    /// The part of that quad: [[u0, u1], [v0, v1]]; the patch's own (u,v) runs over it in the
+    /// same directions.
+    pub domain: [[f64; 2]; 2],
+    /// The extraordinary point it belongs to, as an index into
+    /// [`Surface::extraordinary_points`]; `None` for regular patches.
+    pub point: Option<usize>,
+    /// The sector of that point, from 0.
+    pub sector: Option<usize>,
+    source: Source,
+}
+
+/// What a patch is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Source {
+    /// The number of its control net.
+    Net(u32),
+    /// Patch `which` of a sector of a ring, the sector's square in the quad and the corner of
+    /// the square at which the extraordinary point is.
+    Ring { which: usize, square: Square, corner: u8 },
+}
+
 /// One polynomial patch of the surface and where it lies.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PlacedPatch {
     /// What it is part of.
     pub role: Role,
@@ -101,22 +144,84 @@ pub struct PlacedPatch {
 }
 
 /// Why no surface could be built.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SurfaceError {
-    /// There are no rules for these valences.
-    #[error("no rules for valence above {max}")]
-    ValenceTooHigh {
-        /// The vertices and their valences.
-        vertices: Vec<(Option<VertexId>, Option<FaceId>, usize)>,
-        /// The highest valence with rules.
-        max: usize,
+    /// The scheme has no rules for the valence of these points.
+    #[error(
+        "scheme {} has {}rules for valences {}, but {}; {}",
+        scheme.name(),
+        if *rules == RuleSet::Published { "published " } else { "" },
+        scheme.valences(*rules),
+        list_places(points),
+        advice(*scheme, *rules, points)
+    )]
+    NoRules {
+        /// The points and their valences.
+        points: Vec<(Place, usize)>,
+        /// The scheme.
+        scheme: SchemeKind,
+        /// Its tables.
+        rules: RuleSet,
     },
+}
+
+/// What to do about points without rules.
+fn advice(scheme: SchemeKind, rules: RuleSet, points: &[(Place, usize)]) -> String {
+    let mut ways = Vec::new();
+    if points.iter().any(|&(_, valence)| valence > 2) {
+        ways.push("split such a vertex or face into several of lower valence");
+    }
+    if points.iter().any(|&(_, valence)| valence == 2) {
+        ways.push("dissolve vertices with two edges into their faces");
+    }
+    if rules == RuleSet::Published {
+        ways.push("use the generated rules");
+    }
+    if scheme != SchemeKind::CatmullClark {
+        ways.push("use scheme cc");
+    }
+    ways.join(", or ")
+}
+
+/// The points of an error message, 1-based as in files, at most eight of them.
+fn list_places(points: &[(Place, usize)]) -> String {
+    let name = |&(place, valence): &(Place, usize)| match place {
+        Place::Vertex(v) => format!("vertex {} has valence {valence}", v.0 + 1),
+        Place::FaceCentre(f) => format!("face {} has {valence} corners", f.0 + 1),
+    };
+    let mut names: Vec<String> = points.iter().take(8).map(name).collect();
+    if points.len() > names.len() {
+        names.push(format!("{} more", points.len() - names.len()));
+    }
+    names.join(", ")
 }
 
 impl Surface {
     /// Builds the surface over `cage`.
-    pub fn build(_cage: impl Into<Arc<Cage>>, _options: SurfaceOptions) -> Result<Self, SurfaceError> {
-        todo!()
+    ///
+    /// Time and memory are linear in the number of faces; rings are made when they are first
+    /// asked for.
+    ///
+    /// # Errors
+    ///
+    /// [`SurfaceError::NoRules`] if the scheme has no rules for the valence of some point
+    /// ([`SchemeKind::has_rules`]).
+    pub fn build(
+        cage: impl Into<Arc<Cage>>,
+        options: SurfaceOptions,
+    ) -> Result<Self, SurfaceError> {
+        let cage = cage.into();
+        let plan = Plan::new(cage.topology());
+        let rules = rules_by_valence(&plan, options)?;
+        let refined = refined_positions(&cage, &plan);
+        let rings = (0..plan.points.len())
+            .map(|p| {
+                let cnet = gather(&cage, &plan, &refined, p);
+                Rings::with_rules(&cnet, rules[&plan.points[p].valence].clone())
+            })
+            .collect::<Vec<_>>();
+        let points = rings.iter().enumerate().map(|(p, r)| describe(&plan, p, r)).collect();
+        Ok(Self { cage, options, plan, refined, rings, points })
     }
 
     /// The cage.
@@ -131,46 +236,374 @@ impl Surface {
 
     /// The number of parametric quads, omitted ones included.
     pub fn num_quads(&self) -> usize {
-        todo!()
+        self.plan.first_quads.last().map_or(0, |&n| n as usize)
     }
 
-    /// The parametric quad at `corner` of `face`; for a face with four corners the corner
-    /// must be 0. `None` if there is no such face or corner.
-    pub fn quad(&self, _face: FaceId, _corner: usize) -> Option<QuadId> {
-        todo!()
+    /// The parametric quad at `corner` of `face`; for a face with four corners the corner must
+    /// be 0. `None` if there is no such face or corner.
+    pub fn quad(&self, face: FaceId, corner: usize) -> Option<QuadId> {
+        let first = *self.plan.first_quads.get(face.index())?;
+        let end = *self.plan.first_quads.get(face.index() + 1)?;
+        let quad = u32::try_from(corner).ok().and_then(|k| first.checked_add(k))?;
+        (quad < end).then_some(QuadId(quad))
     }
 
     /// The face of `quad`, and the corner if the face is an n-gon (else 0).
-    pub fn face_of(&self, _quad: QuadId) -> (FaceId, usize) {
-        todo!()
+    ///
+    /// # Panics
+    ///
+    /// If there is no such quad.
+    pub fn face_of(&self, quad: QuadId) -> (FaceId, usize) {
+        assert!((quad.0 as usize) < self.num_quads(), "there is no quad {}", quad.0);
+        let face = self.plan.first_quads.partition_point(|&first| first <= quad.0) - 1;
+        (FaceId(face as u32), (quad.0 - self.plan.first_quads[face]) as usize)
     }
 
-    /// Whether there is a surface over `face` (not so where it touches a boundary).
-    pub fn is_omitted(&self, _face: FaceId) -> bool {
-        todo!()
+    /// Whether there is no surface over `face` (so where it touches a boundary).
+    pub fn is_omitted(&self, face: FaceId) -> bool {
+        self.plan.omitted.binary_search(&face).is_ok()
     }
 
     /// The faces without a surface, in order.
     pub fn omitted_faces(&self) -> &[FaceId] {
-        todo!()
-    }
-
-    /// Position, derivatives, normal and curvature at (u,v) of `quad`, clamped to [0,1];
-    /// `None` if the face is omitted.
-    ///
-    /// At an extraordinary point itself the position is the limit point and the normal the
-    /// limit normal; derivatives and curvature do not exist there and are NaN.
-    pub fn eval(&self, _quad: QuadId, _u: f64, _v: f64) -> Option<SurfacePoint> {
-        todo!()
+        &self.plan.omitted
     }
 
     /// The extraordinary points that have a surface around them.
     pub fn extraordinary_points(&self) -> &[ExtraordinaryPoint] {
-        todo!()
+        &self.points
     }
 
-    /// All regular patches and the rings 1 to `rings` of every extraordinary point.
-    pub fn patches(&self, _rings: usize) -> impl Iterator<Item = PlacedPatch> {
-        std::iter::empty()
+    /// The rings around an extraordinary point, by its index.
+    pub fn rings(&self, point: usize) -> &Rings {
+        &self.rings[point]
     }
+
+    /// Position, derivatives, normal and curvature at (u,v) of `quad`, which are clamped to
+    /// [0,1]; `None` if the face is omitted, there is no such quad or a parameter is NaN.
+    ///
+    /// At an extraordinary point itself the position is the limit point and the normal the
+    /// limit normal; derivatives and curvature do not exist there and are NaN. Anywhere else,
+    /// however near, they are exact to rounding ([`Rings::eval`]).
+    pub fn eval(&self, quad: QuadId, u: f64, v: f64) -> Option<SurfacePoint> {
+        if u.is_nan() || v.is_nan() {
+            return None;
+        }
+        let mut piece = *self.plan.pieces[..self.num_quads()].get(quad.0 as usize)?;
+        let (mut at, mut zoom) = ([u.clamp(0.0, 1.0), v.clamp(0.0, 1.0)], 1.0);
+        loop {
+            match piece {
+                Piece::Omitted => return None,
+                Piece::Regular(net) => {
+                    let jet = self.regular_jet(net, at);
+                    return Some(jet.scaled_parameters(zoom).into());
+                }
+                Piece::Sector { point, sector, corner } => {
+                    let [a, b] = to_sector(corner, at);
+                    let found = self.rings[point as usize].eval(sector as usize, a, b);
+                    let jet = from_sector(corner, &found.jet).scaled_parameters(zoom);
+                    return Some(SurfacePoint { jet, ..found });
+                }
+                Piece::Split(first) => {
+                    let k = quadrant(at);
+                    piece = self.plan.pieces[first as usize + k];
+                    at = [2.0 * at[0] - CORNERS[k][0], 2.0 * at[1] - CORNERS[k][1]];
+                    zoom *= 2.0;
+                }
+            }
+        }
+    }
+
+    /// All regular patches and the rings 1 to `rings` of every extraordinary point, quad by
+    /// quad.
+    pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch> + '_ {
+        self.patch_places(rings).map(|place| {
+            let PatchPlace { role, quad, domain, point, sector, .. } = place;
+            PlacedPatch { role, quad, domain, point, sector, patch: self.patch(&place) }
+        })
+    }
+
+    /// Where the patches of [`Surface::patches`] lie.
+    pub fn patch_places(&self, rings: usize) -> impl Iterator<Item = PatchPlace> + '_ {
+        (0..self.num_quads() as u32).flat_map(move |quad| {
+            let mut places = Vec::new();
+            let whole = Square { quad: QuadId(quad), origin: [0.0; 2], size: 1.0 };
+            self.collect_places(self.plan.pieces[quad as usize], whole, rings, &mut places);
+            places
+        })
+    }
+
+    /// The polynomial of a patch.
+    pub fn patch(&self, place: &PatchPlace) -> Patch {
+        match (place.source, place.point, place.sector, place.role) {
+            (Source::Ring { which, corner, .. }, Some(point), Some(sector), Role::Ring(ring)) => {
+                turned_patch(corner, &self.rings[point].patch(ring - 1, sector, which))
+            }
+            (Source::Net(net), ..) => self.regular_patch(net),
+            _ => unreachable!("a patch of a ring has a point, a sector and a ring"),
+        }
+    }
+
+    /// What a patch says at (u,v) of its quad, on its borders too: [`Surface::eval`] chooses the
+    /// patch by itself. Derivatives are in the quad's parameters and, unlike those of the
+    /// polynomial in world coordinates, exact to rounding at any depth.
+    pub fn eval_on(&self, place: &PatchPlace, u: f64, v: f64) -> SurfacePoint {
+        match (place.source, place.point, place.sector, place.role) {
+            (Source::Ring { which, square, corner }, Some(p), Some(s), Role::Ring(ring)) => {
+                let [a, b] = to_sector(corner, square.parameters([u, v]));
+                let found = self.rings[p].eval_on(ring - 1, s, which, a, b);
+                let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
+                SurfacePoint { jet, ..found }
+            }
+            (Source::Net(net), ..) => {
+                let [[u0, u1], [v0, v1]] = place.domain;
+                let jet = self.regular_jet(net, [(u - u0) / (u1 - u0), (v - v0) / (v1 - v0)]);
+                jet.scaled_parameters(1.0 / (u1 - u0)).into()
+            }
+            _ => unreachable!("a patch of a ring has a point, a sector and a ring"),
+        }
+    }
+
+    fn collect_places(
+        &self,
+        piece: Piece,
+        square: Square,
+        rings: usize,
+        out: &mut Vec<PatchPlace>,
+    ) {
+        match piece {
+            Piece::Omitted => {}
+            Piece::Regular(net) => out.push(PatchPlace {
+                role: Role::Regular,
+                quad: square.quad,
+                domain: square.part([[0.0, 1.0], [0.0, 1.0]]),
+                point: None,
+                sector: None,
+                source: Source::Net(net),
+            }),
+            Piece::Sector { point, sector, corner } => {
+                let all = (0..rings).flat_map(|ring| (0..3).map(move |which| (ring, which)));
+                out.extend(all.map(|(ring, which)| PatchPlace {
+                    role: Role::Ring(ring + 1),
+                    quad: square.quad,
+                    domain: square.part(ring_domain(corner, ring, which)),
+                    point: Some(point as usize),
+                    sector: Some(sector as usize),
+                    source: Source::Ring { which, square, corner },
+                }));
+            }
+            Piece::Split(first) => {
+                for k in 0..4 {
+                    let child = self.plan.pieces[first as usize + k];
+                    self.collect_places(child, square.child(k), rings, out);
+                }
+            }
+        }
+    }
+
+    fn positions(&self, level: usize) -> &[Point] {
+        if level == 0 { self.cage.positions() } else { &self.refined[level - 1] }
+    }
+
+    fn regular_jet(&self, net: u32, [u, v]: [f64; 2]) -> Jet {
+        let net = self.plan.nets[net as usize];
+        let positions = self.positions(net.level as usize);
+        let (bu, bv) = (cubic_b_spline(u), cubic_b_spline(v));
+        let mut jet = Jet::default();
+        for i in 0..4 {
+            let mut along_v = [[0.0; 3]; 3];
+            for j in 0..4 {
+                let p = positions[net.vertices[4 * i + j].index()];
+                for (order, sum) in along_v.iter_mut().enumerate() {
+                    add_scaled(sum, bv[order][j], p);
+                }
+            }
+            add_scaled(&mut jet.p, bu[0][i], along_v[0]);
+            add_scaled(&mut jet.du, bu[1][i], along_v[0]);
+            add_scaled(&mut jet.dv, bu[0][i], along_v[1]);
+            add_scaled(&mut jet.duu, bu[2][i], along_v[0]);
+            add_scaled(&mut jet.duv, bu[1][i], along_v[1]);
+            add_scaled(&mut jet.dvv, bu[0][i], along_v[2]);
+        }
+        jet
+    }
+
+    fn regular_patch(&self, net: u32) -> Patch {
+        let net = self.plan.nets[net as usize];
+        let positions = self.positions(net.level as usize);
+        let coef = |k: usize| {
+            let mut sum = [0.0; 3];
+            for (m, v) in net.vertices.iter().enumerate() {
+                let w = CUBIC_B_SPLINE_TO_BB[k / 4][m / 4] * CUBIC_B_SPLINE_TO_BB[k % 4][m % 4];
+                add_scaled(&mut sum, w, positions[v.index()]);
+            }
+            sum
+        };
+        Patch::new([3, 3], (0..16).map(coef).collect())
+    }
+}
+
+/// A square of a parametric quad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Square {
+    quad: QuadId,
+    origin: [f64; 2],
+    size: f64,
+}
+
+impl Square {
+    fn child(self, k: usize) -> Self {
+        let size = 0.5 * self.size;
+        let origin = [0, 1].map(|d| self.origin[d] + CORNERS[k][d] * size);
+        Self { origin, size, ..self }
+    }
+
+    /// The square's own parameters of a point of the quad.
+    fn parameters(self, at: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|d| (at[d] - self.origin[d]) / self.size)
+    }
+
+    /// The part of the quad that is `part` of this square.
+    fn part(self, part: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+        [0, 1].map(|d| part[d].map(|x| self.origin[d] + self.size * x))
+    }
+}
+
+fn rules_by_valence(
+    plan: &Plan,
+    options: SurfaceOptions,
+) -> Result<BTreeMap<usize, Arc<ValenceRules>>, SurfaceError> {
+    let SurfaceOptions { scheme, rules: set } = options;
+    let without = plan.points.iter().filter(|p| !scheme.has_rules(set, p.valence));
+    let points: Vec<_> = without.map(|p| (p.place, p.valence)).collect();
+    if !points.is_empty() {
+        return Err(SurfaceError::NoRules { points, scheme, rules: set });
+    }
+    let mut rules = BTreeMap::new();
+    for point in &plan.points {
+        rules.entry(point.valence).or_insert_with(|| {
+            let rules = ValenceRules::new(scheme, set, point.valence);
+            Arc::new(rules.expect("has_rules was asked before"))
+        });
+    }
+    Ok(rules)
+}
+
+fn refined_positions(cage: &Cage, plan: &Plan) -> Vec<Vec<Point>> {
+    let mut refined: Vec<Vec<Point>> = Vec::new();
+    for (k, level) in plan.levels.iter().enumerate() {
+        let coarse = refined.last().map_or(cage.positions(), Vec::as_slice);
+        let topology = plan.topology(cage.topology(), k);
+        refined.push(level.positions(topology, coarse, k > 0));
+    }
+    refined
+}
+
+/// The c-net of a point, at the level at which it is isolated.
+fn gather(cage: &Cage, plan: &Plan, refined: &[Vec<Point>], point: usize) -> CNet {
+    let level = plan.points[point].level;
+    let positions = if level == 0 { cage.positions() } else { &refined[level - 1] };
+    let topology = plan.topology(cage.topology(), level);
+    let first = plan.first_half_edges[point];
+    let at = |v: VertexId| positions[v.index()];
+    CNet {
+        center: at(topology.origin(first)),
+        sectors: cnet_vertices(topology, first).into_iter().map(|s| s.map(at)).collect(),
+    }
+}
+
+fn describe(plan: &Plan, point: usize, rings: &Rings) -> ExtraordinaryPoint {
+    let found = plan.points[point];
+    let mut sectors: Vec<Sector> = plan.sectors[point]
+        .iter()
+        .map(|place| {
+            let on_quad = |[a, b]: [f64; 2]| {
+                let [u, v] = from_sector_parameters(place.corner as u8, [a, b]);
+                [place.origin[0] + place.size * u, place.origin[1] + place.size * v]
+            };
+            let center = on_quad([0.0, 0.0]);
+            let step = |end: [f64; 2]| [end[0] - center[0], end[1] - center[1]];
+            let along = [step(on_quad([1.0, 0.0])), step(on_quad([0.0, 1.0]))];
+            Sector { index: place.sector, quad: QuadId(place.quad), center, along }
+        })
+        .collect();
+    sectors.sort_by_key(|s| s.index);
+    let (vertex, face) = match found.place {
+        Place::Vertex(v) => (Some(v), None),
+        Place::FaceCentre(f) => (None, Some(f)),
+    };
+    ExtraordinaryPoint {
+        vertex,
+        face,
+        valence: found.valence,
+        level: found.level,
+        position: rings.center(),
+        normal: rings.normal(),
+        sectors,
+    }
+}
+
+/// The corner of the quarter of a square in which a point lies.
+fn quadrant([u, v]: [f64; 2]) -> usize {
+    match (u > 0.5, v > 0.5) {
+        (false, false) => 0,
+        (true, false) => 1,
+        (true, true) => 2,
+        (false, true) => 3,
+    }
+}
+
+/// The sector parameters (a,b) of a point (u,v) of a square, the extraordinary point being at
+/// the square's corner `corner`: a runs to the next corner, b to the one before.
+fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
+    match corner {
+        0 => [u, v],
+        1 => [v, 1.0 - u],
+        2 => [1.0 - u, 1.0 - v],
+        _ => [1.0 - v, u],
+    }
+}
+
+/// The inverse of [`to_sector`].
+fn from_sector_parameters(corner: u8, [a, b]: [f64; 2]) -> [f64; 2] {
+    match corner {
+        0 => [a, b],
+        1 => [1.0 - b, a],
+        2 => [1.0 - a, 1.0 - b],
+        _ => [b, 1.0 - a],
+    }
+}
+
+/// The jet in (u,v) of a map given in (a,b).
+fn from_sector(corner: u8, jet: &Jet) -> Jet {
+    let minus = |r| scale(-1.0, r);
+    let Jet { p, du: da, dv: db, duu: daa, duv: dab, dvv: dbb } = *jet;
+    match corner {
+        0 => *jet,
+        1 => Jet { p, du: minus(db), dv: da, duu: dbb, duv: minus(dab), dvv: daa },
+        2 => Jet { p, du: minus(da), dv: minus(db), duu: daa, duv: dab, dvv: dbb },
+        _ => Jet { p, du: db, dv: minus(da), duu: dbb, duv: minus(dab), dvv: daa },
+    }
+}
+
+/// A patch given in (a,b) with its parameters along (u,v).
+fn turned_patch(corner: u8, patch: &Patch) -> Patch {
+    let [d, _] = patch.degree();
+    let coef = |i: usize, j: usize| match corner {
+        0 => patch.coef(i, j),
+        1 => patch.coef(j, d - i),
+        2 => patch.coef(d - i, d - j),
+        _ => patch.coef(d - j, i),
+    };
+    let coefs = (0..=d).flat_map(|i| (0..=d).map(move |j| (i, j))).map(|(i, j)| coef(i, j));
+    Patch::new([d, d], coefs.collect())
+}
+
+/// The (u,v) rectangle of patch `which` of ring `ring` (from 0) in the square of its sector.
+fn ring_domain(corner: u8, ring: usize, which: usize) -> [[f64; 2]; 2] {
+    let size = (0..ring).fold(1.0, |size, _| 0.5 * size);
+    let [a, b] = PATCH_ORIGINS[which].map(|x| x * size);
+    let ends =
+        [[a, b], [a + 0.5 * size, b + 0.5 * size]].map(|end| from_sector_parameters(corner, end));
+    [0, 1].map(|d| [ends[0][d].min(ends[1][d]), ends[0][d].max(ends[1][d])])
 }

@@ -1,1 +1,4 @@
 //! Interrogation of surfaces: curvature, continuity, spectra.
+
+pub mod continuity;
+pub mod highlight;

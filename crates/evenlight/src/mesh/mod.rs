@@ -12,8 +12,8 @@ mod refine;
 mod topology;
 
 pub use check::Cage;
-pub(crate) use fault::{MAX_LISTED, one_per_line};
 pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Warning};
+pub(crate) use fault::{MAX_LISTED, one_per_line};
 pub use topology::{HalfEdgeId, Ring, Topology};
 
 use crate::point::Point;

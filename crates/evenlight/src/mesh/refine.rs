@@ -1,0 +1,285 @@
+//! One step of Catmull-Clark refinement of a part of a mesh [CC78].
+//!
+//! Every chosen face with m corners becomes m quads, one per corner; their vertices come from
+//! the faces, edges and vertices of the coarser mesh:
+//!
+//! ```text
+//!   v3 --- E2 --- v2       child k of a quad stands at corner k and keeps the parent's
+//!    |  3   |   2  |       orientation: its vertex k is v_k, so its (u,v) run like the
+//!   E3 ---- F --- E1       parent's. Child k of an n-gon starts with v_k:
+//!    |  0   |   1  |       v_k, E_k, F, E_(k-1).
+//!   v0 --- E0 --- v1
+//! ```
+//!
+//! Only the chosen faces have children, so the finer mesh has a border where the coarse one
+//! goes on. Where the chosen part touches itself in a single vertex, the finer mesh has one
+//! vertex per fan there.
+
+use super::{FaceId, Faces, HalfEdgeId, Topology, VertexId};
+use crate::point::{Point, add_scaled};
+
+/// Where a refined vertex comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    Vertex(VertexId),
+    Edge(HalfEdgeId),
+    Face(FaceId),
+}
+
+/// A refined part of a coarser mesh.
+#[derive(Clone, Debug)]
+pub(crate) struct Level {
+    topology: Topology,
+    /// The first child of every coarse face; `NONE` for faces without children.
+    first_child: Vec<u32>,
+    origins: Vec<Origin>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Level {
+    /// Refines the faces of `coarse` for which `chosen` is true.
+    pub(crate) fn refine(coarse: &Topology, chosen: &[bool]) -> Self {
+        let mut builder = Builder {
+            coarse,
+            chosen,
+            origins: Vec::new(),
+            of_corner: vec![NONE; coarse.half_edges().len()],
+            of_edge: vec![NONE; coarse.half_edges().len()],
+        };
+        let mut faces = Faces::default();
+        let mut first_child = vec![NONE; chosen.len()];
+        for face in coarse.faces().ids().filter(|f| chosen[f.index()]) {
+            first_child[face.index()] = faces.len() as u32;
+            builder.add_children(face, &mut faces);
+        }
+        let origins = builder.origins;
+        let topology = Topology::build(faces, origins.len())
+            .expect("a refined part of a surface is a surface, since its fans were separated");
+        Self { topology, first_child, origins }
+    }
+
+    /// The connectivity of the refined part.
+    pub(crate) fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// Child `k` of a coarse face; `None` if it was not chosen.
+    pub(crate) fn child(&self, face: FaceId, k: usize) -> Option<FaceId> {
+        let first = self.first_child[face.index()];
+        (first != NONE).then(|| FaceId(first + k as u32))
+    }
+
+    /// The positions of the refined vertices, from those of the coarse mesh.
+    ///
+    /// `coarse_is_cut` tells that the coarse mesh is itself a refined part: then its border is
+    /// no boundary of the surface, and what would need the faces beyond is NaN, to be noticed
+    /// if ever it were used.
+    pub(crate) fn positions(
+        &self,
+        coarse: &Topology,
+        positions: &[Point],
+        coarse_is_cut: bool,
+    ) -> Vec<Point> {
+        let masks = Masks { coarse, positions };
+        let unknown = |v: VertexId| coarse_is_cut && coarse.is_boundary(v);
+        self.origins
+            .iter()
+            .map(|&origin| match origin {
+                Origin::Face(f) => masks.face(f),
+                Origin::Edge(h) if coarse_is_cut && coarse.twin(h).is_none() => [f64::NAN; 3],
+                Origin::Edge(h) => masks.edge(h),
+                Origin::Vertex(v) if unknown(v) => [f64::NAN; 3],
+                Origin::Vertex(v) => masks.vertex(v),
+            })
+            .collect()
+    }
+}
+
+struct Builder<'a> {
+    coarse: &'a Topology,
+    chosen: &'a [bool],
+    origins: Vec<Origin>,
+    /// The refined vertex at each coarse corner, kept at the first half-edge of its fan.
+    of_corner: Vec<u32>,
+    /// The refined vertex on each coarse edge, kept at the lower half-edge.
+    of_edge: Vec<u32>,
+}
+
+impl Builder<'_> {
+    fn add_children(&mut self, face: FaceId, faces: &mut Faces) {
+        let size = self.coarse.faces().corners(face).len();
+        let center = self.add(Origin::Face(face));
+        for k in 0..size {
+            let h = self.coarse.half_edge(face, k);
+            let before = self.coarse.previous(h);
+            let mut child =
+                [self.corner_vertex(h), self.edge_vertex(h), center, self.edge_vertex(before)];
+            if size == 4 {
+                child.rotate_right(k);
+            }
+            faces.push(child);
+        }
+    }
+
+    fn add(&mut self, origin: Origin) -> VertexId {
+        self.origins.push(origin);
+        VertexId(self.origins.len() as u32 - 1)
+    }
+
+    fn edge_vertex(&mut self, h: HalfEdgeId) -> VertexId {
+        let lower = self.coarse.twin(h).map_or(h, |twin| h.min(twin));
+        if self.of_edge[lower.index()] == NONE {
+            self.of_edge[lower.index()] = self.add(Origin::Edge(lower)).0;
+        }
+        VertexId(self.of_edge[lower.index()])
+    }
+
+    fn corner_vertex(&mut self, h: HalfEdgeId) -> VertexId {
+        let first = self.first_of_fan(h);
+        if self.of_corner[first.index()] == NONE {
+            self.of_corner[first.index()] = self.add(Origin::Vertex(self.coarse.origin(h))).0;
+        }
+        VertexId(self.of_corner[first.index()])
+    }
+
+    /// The first half-edge of the fan of chosen faces that contains the sector of `h`: the
+    /// clockwise-most, or the lowest if the fan is closed.
+    fn first_of_fan(&self, h: HalfEdgeId) -> HalfEdgeId {
+        let (mut at, mut lowest) = (h, h);
+        loop {
+            let Some(twin) = self.coarse.twin(at) else { return at };
+            if !self.chosen[self.coarse.face(twin).index()] {
+                return at;
+            }
+            at = self.coarse.next(twin);
+            lowest = lowest.min(at);
+            if at == h {
+                return lowest;
+            }
+        }
+    }
+}
+
+/// The refinement masks of Catmull-Clark, with the boundary rule "edge and corner": boundary
+/// curves are cubic splines of the boundary vertices, a vertex with a single face stays.
+struct Masks<'a> {
+    coarse: &'a Topology,
+    positions: &'a [Point],
+}
+
+impl Masks<'_> {
+    fn at(&self, v: VertexId) -> Point {
+        self.positions[v.index()]
+    }
+
+    fn face(&self, f: FaceId) -> Point {
+        mean(self.coarse.faces().corners(f).iter().map(|&v| self.at(v)))
+    }
+
+    fn edge(&self, h: HalfEdgeId) -> Point {
+        let ends = [self.at(self.coarse.origin(h)), self.at(self.coarse.target(h))];
+        let Some(twin) = self.coarse.twin(h) else { return mean(ends) };
+        mean(ends.into_iter().chain([h, twin].map(|h| self.face(self.coarse.face(h)))))
+    }
+
+    /// (Q + 2 R + (n-3) S) / n with the means Q of the face points, R of the edge midpoints.
+    fn vertex(&self, v: VertexId) -> Point {
+        if self.coarse.is_boundary(v) {
+            return self.boundary_vertex(v);
+        }
+        let n = self.coarse.num_sectors(v) as f64;
+        let mut sum = crate::point::scale((n - 2.0) / n, self.at(v));
+        for h in self.coarse.ring(v) {
+            add_scaled(&mut sum, 1.0 / (n * n), self.face(self.coarse.face(h)));
+            add_scaled(&mut sum, 1.0 / (n * n), self.at(self.coarse.target(h)));
+        }
+        sum
+    }
+
+    fn boundary_vertex(&self, v: VertexId) -> Point {
+        if self.coarse.num_sectors(v) == 1 {
+            return self.at(v);
+        }
+        let mut ring = self.coarse.ring(v);
+        let first = ring.next().expect("a boundary vertex has a face");
+        let last = self.coarse.previous(ring.last().unwrap_or(first));
+        let mut sum = crate::point::scale(0.75, self.at(v));
+        add_scaled(&mut sum, 0.125, self.at(self.coarse.target(first)));
+        add_scaled(&mut sum, 0.125, self.at(self.coarse.origin(last)));
+        sum
+    }
+}
+
+fn mean(points: impl IntoIterator<Item = Point>) -> Point {
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    for p in points {
+        add_scaled(&mut sum, 1.0, p);
+        count += 1.0;
+    }
+    sum.map(|x| x / count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+
+    const CUBE: [&[u32]; 6] =
+        [&[0, 3, 2, 1], &[4, 5, 6, 7], &[0, 1, 5, 4], &[1, 2, 6, 5], &[2, 3, 7, 6], &[3, 0, 4, 7]];
+
+    fn cube() -> (Topology, Vec<Point>) {
+        let corner = |k: usize| {
+            let [x, y] = [[0., 0.], [1., 0.], [1., 1.], [0., 1.]][k % 4];
+            [x, y, (k / 4) as f64]
+        };
+        let topology = Topology::build(Mesh::new(vec![], CUBE).faces, 8).unwrap();
+        (topology, (0..8).map(corner).collect())
+    }
+
+    #[test]
+    fn a_refined_cube_is_the_known_one() {
+        let (cube, positions) = cube();
+        let level = Level::refine(&cube, &[true; 6]);
+        let refined = level.positions(&cube, &positions, false);
+        assert_eq!((refined.len(), level.topology().faces().len()), (26, 24));
+        // A corner moves by (1,1,1) * 2/9: n = 3, Q + 2 R + 0 S = (1/6 + 2/6...) by hand 2/9.
+        let child = level.child(FaceId(0), 0).unwrap();
+        let corner = level.topology().faces().corners(child)[0];
+        for x in refined[corner.index()] {
+            assert!((x - 2.0 / 9.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn parts_that_touch_in_a_vertex_are_separated() {
+        let (cube, _) = cube();
+        // Two triangles of quads at opposite sides touch nowhere; faces 0 and 1 neither.
+        let level = Level::refine(&cube, &[true, true, false, false, false, false]);
+        assert_eq!(level.topology().faces().len(), 8);
+        // A 3 x 3 grid with two opposite corner quads of the inner vertex chosen.
+        let grid: [&[u32]; 4] = [&[0, 1, 4, 3], &[1, 2, 5, 4], &[3, 4, 7, 6], &[4, 5, 8, 7]];
+        let grid = Topology::build(Mesh::new(vec![], grid).faces, 9).unwrap();
+        let level = Level::refine(&grid, &[true, false, false, true]);
+        assert_eq!(level.topology().num_vertices(), 18);
+    }
+
+    #[test]
+    fn children_keep_the_orientation_of_their_parent() {
+        let (cube, positions) = cube();
+        let level = Level::refine(&cube, &[true; 6]);
+        let refined = level.positions(&cube, &positions, false);
+        let centroid = |f: FaceId| {
+            mean(level.topology().faces().corners(f).iter().map(|v| refined[v.index()]))
+        };
+        for k in 0..4 {
+            let child = level.child(FaceId(1), k).unwrap();
+            let corners = level.topology().faces().corners(child);
+            // Vertex k of child k is the refined corner k, the farthest from the face's centre.
+            let c = centroid(child);
+            assert!(c[2] > 0.5);
+            assert!(matches!(level.origins[corners[k].index()], Origin::Vertex(v)
+                if v == cube.faces().corners(FaceId(1))[k]));
+        }
+    }
+}

@@ -158,7 +158,7 @@ impl Topology {
     }
 
     /// All half-edges.
-    pub fn half_edges(&self) -> impl Iterator<Item = HalfEdgeId> + use<> {
+    pub fn half_edges(&self) -> impl ExactSizeIterator<Item = HalfEdgeId> + use<> {
         (0..self.face.len() as u32).map(HalfEdgeId)
     }
 
@@ -190,13 +190,21 @@ impl Topology {
     /// The half-edge that follows `h` around its face.
     pub fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
         let range = self.faces.corner_range(self.face(h));
-        if h.index() + 1 == range.end { HalfEdgeId(range.start as u32) } else { HalfEdgeId(h.0 + 1) }
+        if h.index() + 1 == range.end {
+            HalfEdgeId(range.start as u32)
+        } else {
+            HalfEdgeId(h.0 + 1)
+        }
     }
 
     /// The half-edge that comes before `h` around its face.
     pub fn previous(&self, h: HalfEdgeId) -> HalfEdgeId {
         let range = self.faces.corner_range(self.face(h));
-        if h.index() == range.start { HalfEdgeId(range.end as u32 - 1) } else { HalfEdgeId(h.0 - 1) }
+        if h.index() == range.start {
+            HalfEdgeId(range.end as u32 - 1)
+        } else {
+            HalfEdgeId(h.0 - 1)
+        }
     }
 
     /// The other side of the edge of `h`; `None` at a boundary.
@@ -300,7 +308,9 @@ mod tests {
     #[test]
     fn faults_are_named() {
         let err = topology(5, &[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4]]).unwrap_err();
-        assert!(matches!(&err[..], [MeshError::EdgeWithManyFaces { faces, .. }] if faces.len() == 3));
+        assert!(
+            matches!(&err[..], [MeshError::EdgeWithManyFaces { faces, .. }] if faces.len() == 3)
+        );
         let err = topology(4, &[&[0, 1, 2], &[0, 1, 3]]).unwrap_err();
         assert!(matches!(err[..], [MeshError::InconsistentOrientation { .. }]));
         let err = topology(5, &[&[0, 1, 2], &[0, 3, 4]]).unwrap_err();

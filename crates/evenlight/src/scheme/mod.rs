@@ -1,12 +1,41 @@
-//! The schemes: rules per valence.
+//! The schemes: which linear rules make the rings around an extraordinary point.
+//!
+//! A scheme is a pair of linear maps per valence ([`rules`]): net to refined net, and both to a
+//! ring of Bernstein-Bezier patches. Nothing here knows a mesh.
 
-/// Which subdivision scheme makes the surface around extraordinary vertices.
+mod catmull_clark;
+mod evolving_guide;
+mod rules;
+mod subdominant;
+mod tables;
+
+pub(crate) use rules::{PATCH_ORIGINS, Rules};
+pub(crate) use subdominant::Subdominant;
+
+use crate::net::{CNet, DNet};
+use crate::point::Point;
+
+/// Which subdivision scheme makes the surface around extraordinary points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SchemeKind {
-    /// Catmull-Clark subdivision: bi-3 rings, C1 at the centre, unbounded curvature there.
+    /// Catmull-Clark subdivision [CC78]: bi-3 rings, C1 at the centre, unbounded curvature there.
     CatmullClark,
-    /// Evolving-Guide subdivision: bi-4 rings, C1 at the centre, no oscillation.
+    /// Evolving-Guide subdivision [KP23-EG]: bi-4 rings, C1 at the centre, without pinching.
     EvolvingGuide,
+}
+
+/// Catmull-Clark has rules for every valence; the limit keeps a face with a million corners from
+/// using up the memory.
+const MAX_CATMULL_CLARK_VALENCE: usize = 1024;
+
+/// Which tables of weights are used, by schemes that have tables.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum RuleSet {
+    /// Full precision, valences 3 and 5 to 16.
+    #[default]
+    Generated,
+    /// As the paper prints them, truncated to 5 digits: valences 3 and 5 to 10.
+    Published,
 }
 
 impl SchemeKind {
@@ -20,14 +49,58 @@ impl SchemeKind {
             Self::EvolvingGuide => "eg",
         }
     }
-}
 
-/// Which tables of weights are used (schemes with tables only).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum RuleSet {
-    /// Full precision, valences 3 and 5 to 16.
-    #[default]
-    Generated,
-    /// As the paper prints them: truncated to 5 digits, valences 3 and 5 to 10.
-    Published,
+    /// Whether there are rules for valence `n`.
+    pub fn has_rules(self, rules: RuleSet, n: usize) -> bool {
+        match (self, rules) {
+            (Self::CatmullClark, _) => (2..=MAX_CATMULL_CLARK_VALENCE).contains(&n),
+            (Self::EvolvingGuide, RuleSet::Generated) => n == 3 || (5..=16).contains(&n),
+            (Self::EvolvingGuide, RuleSet::Published) => n == 3 || (5..=10).contains(&n),
+        }
+    }
+
+    /// The valences with rules, in words.
+    pub fn valences(self, rules: RuleSet) -> &'static str {
+        match (self, rules) {
+            (Self::CatmullClark, _) => "2 to 1024",
+            (Self::EvolvingGuide, RuleSet::Generated) => "3 and 5 to 16",
+            (Self::EvolvingGuide, RuleSet::Published) => "3 and 5 to 10",
+        }
+    }
+
+    /// The rules at valence `n`, if there are any.
+    pub(crate) fn rules(self, set: RuleSet, n: usize) -> Option<Rules> {
+        if !self.has_rules(set, n) {
+            return None;
+        }
+        match self {
+            Self::CatmullClark => Some(catmull_clark::rules(n)),
+            Self::EvolvingGuide => evolving_guide::rules(n, set == RuleSet::Published),
+        }
+    }
+
+    /// The limit point of a c-net.
+    pub(crate) fn limit_point(self, cnet: &CNet) -> Point {
+        match self {
+            Self::CatmullClark => cnet.catmull_clark_limit(),
+            Self::EvolvingGuide => cnet.evolving_guide_limit(),
+        }
+    }
+
+    /// The net on which the rules work, from a c-net relative to its limit point.
+    pub(crate) fn state(self, cnet: &CNet) -> Vec<[f64; 3]> {
+        match self {
+            Self::CatmullClark => catmull_clark::state(cnet),
+            Self::EvolvingGuide => evolving_guide::state(cnet),
+        }
+    }
+
+    /// The net on which the rules work, from a d-net relative to its limit point; `None` for
+    /// schemes that work on c-nets.
+    pub(crate) fn state_of_dnet(self, dnet: &DNet) -> Option<Vec<[f64; 3]>> {
+        match self {
+            Self::CatmullClark => None,
+            Self::EvolvingGuide => Some(evolving_guide::state_of_dnet(dnet)),
+        }
+    }
 }

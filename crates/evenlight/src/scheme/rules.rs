@@ -1,0 +1,143 @@
+//! The rules of one scheme at one valence, as linear maps in coordinates relative to the
+//! limit point.
+//!
+//! Every scheme here is *stationary*: one linear map takes the net around the extraordinary
+//! point to the next, smaller net, and a second one makes a ring of patches of both. The limit
+//! point is known before and stays where it is, so all coordinates are taken relative to it:
+//!
+//! ```text
+//!   net x_0 --refine--> x_1 --refine--> x_2 ...        x_l = A^l x_0 -> 0
+//!        \            /    \           /
+//!         3n patches        3n patches                 ring 1, ring 2, ...
+//! ```
+//!
+//! The maps commute with turning by one sector, so a row is written for sector 0 only.
+
+/// One row of a linear map: weights of nodes, written for sector 0.
+///
+/// Node `k` of the sector `r` sectors further on is `r * nodes_per_sector + k`.
+pub(crate) type Row = Vec<(usize, f64)>;
+
+/// The patches of one sector of a ring, in the order of [`Rules::patches`].
+///
+/// ```text
+///  b ^ line s
+///  1 +-----+-----+
+///    |  2  |  0  |      a and b in [0,1] from the centre along lines s-1 and s;
+/// .5 +-----+-----+      each patch has its own parameters running the same way
+///    | next|  1  |
+///    | ring|     |
+///  0 +-----+-----+--> a, line s-1
+///    0    .5     1
+/// ```
+pub(crate) const PATCH_ORIGINS: [[f64; 2]; 3] = [[0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
+
+/// The linear rules of one scheme at one valence.
+#[derive(Clone, Debug)]
+pub(crate) struct Rules {
+    /// The valence n.
+    pub(crate) valence: usize,
+    /// How many nodes each sector owns.
+    pub(crate) nodes_per_sector: usize,
+    /// The new nodes of sector 0 from the old net.
+    pub(crate) refine: Vec<Row>,
+    /// The degree of the patches in both parameters.
+    pub(crate) degree: usize,
+    /// The BB coefficients of the three patches of sector 0.
+    pub(crate) patches: [PatchRule; 3],
+}
+
+/// How a patch is made of the net and its refinement.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PatchRule {
+    /// The part of each BB coefficient (`b` index fastest) that comes from the old net.
+    pub(crate) old: Vec<Row>,
+    /// The part that comes from the refined net.
+    pub(crate) new: Vec<Row>,
+}
+
+impl Rules {
+    /// The number of nodes of a net.
+    pub(crate) fn num_nodes(&self) -> usize {
+        self.valence * self.nodes_per_sector
+    }
+
+    /// The refined net A x.
+    pub(crate) fn refine(&self, net: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let mut refined = Vec::with_capacity(net.len());
+        for s in 0..self.valence {
+            let turned = Turned { net, by: s * self.nodes_per_sector };
+            refined.extend(self.refine.iter().map(|row| turned.apply(row)));
+        }
+        refined
+    }
+
+    /// The BB coefficients of patch `which` (0 to 2) of sector `s` in the ring between `old` and
+    /// `new` = A `old`.
+    pub(crate) fn patch(
+        &self,
+        s: usize,
+        which: usize,
+        old: &[[f64; 3]],
+        new: &[[f64; 3]],
+    ) -> Vec<[f64; 3]> {
+        let by = s * self.nodes_per_sector;
+        let (old, new) = (Turned { net: old, by }, Turned { net: new, by });
+        let rule = &self.patches[which];
+        let rows = rule.old.iter().zip(&rule.new);
+        rows.map(|(a, b)| crate::point::add(old.apply(a), new.apply(b))).collect()
+    }
+}
+
+/// A net turned so that some sector becomes sector 0.
+#[derive(Clone, Copy)]
+struct Turned<'a> {
+    net: &'a [[f64; 3]],
+    by: usize,
+}
+
+impl Turned<'_> {
+    fn apply(self, row: &Row) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for &(node, w) in row {
+            let at = node + self.by;
+            let at = if at < self.net.len() { at } else { at - self.net.len() };
+            for k in 0..3 {
+                sum[k] += w * self.net[at][k];
+            }
+        }
+        sum
+    }
+}
+
+/// Collects the weights of a row; weights of one node add up.
+#[derive(Clone, Debug)]
+pub(crate) struct RowBuilder {
+    valence: usize,
+    nodes_per_sector: usize,
+    weights: Vec<f64>,
+}
+
+impl RowBuilder {
+    pub(crate) fn new(valence: usize, nodes_per_sector: usize) -> Self {
+        Self { valence, nodes_per_sector, weights: vec![0.0; valence * nodes_per_sector] }
+    }
+
+    /// Adds weight `w` on node `node` of the sector `turn` sectors further on.
+    pub(crate) fn add(&mut self, at: crate::net::NodeRef, w: f64) {
+        let r = at.turn.rem_euclid(self.valence as isize) as usize;
+        self.weights[r * self.nodes_per_sector + at.node] += w;
+    }
+
+    /// Adds `w` times another row.
+    pub(crate) fn add_row(&mut self, row: &Row, w: f64) {
+        for &(node, x) in row {
+            self.weights[node] += w * x;
+        }
+    }
+
+    /// The row, without the nodes of weight zero.
+    pub(crate) fn finish(self) -> Row {
+        self.weights.into_iter().enumerate().filter(|&(_, w)| w != 0.0).collect()
+    }
+}
