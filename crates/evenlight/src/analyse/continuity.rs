@@ -56,6 +56,9 @@ impl Jumps {
 pub struct Continuity {
     /// Per extraordinary point, in the order of [`Surface::extraordinary_points`].
     pub points: Vec<Jumps>,
+    /// Per extraordinary point the largest jump of the mean curvature between two rings, in
+    /// 1/unit.
+    pub mean_jumps_across_rings: Vec<f64>,
     /// Over all borders of all patches.
     pub all: Jumps,
 }
@@ -64,15 +67,21 @@ pub struct Continuity {
 ///
 /// The inner border of the last ring is compared with the ring behind it.
 pub fn continuity(surface: &Surface, rings: usize, samples: usize) -> Continuity {
+    let num_points = surface.extraordinary_points().len();
     let mut result = Continuity {
-        points: vec![Jumps::default(); surface.extraordinary_points().len()],
-        ..Continuity::default()
+        points: vec![Jumps::default(); num_points],
+        mean_jumps_across_rings: vec![0.0; num_points],
+        all: Jumps::default(),
     };
     for (_, patches) in patches_by_quad(surface, rings) {
         for (k, patch) in patches.iter().enumerate() {
             let mut jumps = Jumps::default();
             for (u, v) in border_points(patch, samples) {
                 jumps = jumps.max(jumps_at(surface, &patches, k, [u, v]));
+                if let Some(point) = patch.point {
+                    let largest = &mut result.mean_jumps_across_rings[point];
+                    *largest = largest.max(mean_jump_across_rings(surface, &patches, k, [u, v]));
+                }
             }
             if let Some(point) = patch.point {
                 result.points[point] = result.points[point].max(jumps);
@@ -105,9 +114,7 @@ fn border_points(patch: &PatchPlace, samples: usize) -> Vec<(f64, f64)> {
 fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -> Jumps {
     let size = patches[k].domain[0][1] - patches[k].domain[0][0];
     let here = surface.eval_on(&patches[k], at[0], at[1]);
-    let contains =
-        |p: &PatchPlace| (0..2).all(|d| p.domain[d][0] <= at[d] && at[d] <= p.domain[d][1]);
-    let inside = patches.iter().enumerate().filter(|&(j, p)| j != k && contains(p));
+    let inside = patches.iter().enumerate().filter(|&(j, p)| j != k && contains(p, at));
     let mut jumps = Jumps::default();
     let mut alone = true;
     for (_, other) in inside {
@@ -132,6 +139,27 @@ fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -
         }
     }
     jumps
+}
+
+/// The jump of H between patch `k` of a quad and the patches of other rings at the point `at` of
+/// its border.
+fn mean_jump_across_rings(
+    surface: &Surface,
+    patches: &[PatchPlace],
+    k: usize,
+    [u, v]: [f64; 2],
+) -> f64 {
+    let here = surface.eval_on(&patches[k], u, v).mean;
+    let of_another_ring = |p: &&PatchPlace| {
+        p.point == patches[k].point && p.role != patches[k].role && contains(p, [u, v])
+    };
+    let others = patches.iter().filter(of_another_ring);
+    others.map(|p| (surface.eval_on(p, u, v).mean - here).abs()).fold(0.0, f64::max)
+}
+
+/// Whether a point of a quad is in a patch, its border included.
+fn contains(place: &PatchPlace, at: [f64; 2]) -> bool {
+    (0..2).all(|d| place.domain[d][0] <= at[d] && at[d] <= place.domain[d][1])
 }
 
 /// The jumps between two answers for one point, in the same parameters.

@@ -1,4 +1,7 @@
-//! Interrogation of surfaces: curvature, continuity, spectra.
+//! Interrogation of surfaces: numbers and functions that show their quality.
 
 pub mod continuity;
+pub mod curvature;
 pub mod highlight;
+#[cfg(feature = "spectrum")]
+pub mod spectrum;
