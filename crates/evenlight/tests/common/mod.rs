@@ -1,0 +1,92 @@
+//! The cages that the integration tests share.
+#![allow(dead_code, reason = "every test file uses a part of this")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use evenlight::io::obj;
+use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions};
+
+/// Everything around valence 2 and above 16 has no Evolving-Guide rules.
+pub const BOTH: [SchemeKind; 2] = SchemeKind::ALL;
+
+fn data() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes")
+}
+
+/// The cage of a file in data/meshes, by its path there.
+pub fn mesh(name: &str) -> Mesh {
+    let bytes = std::fs::read(data().join(name)).unwrap();
+    obj::read(&bytes).unwrap().mesh
+}
+
+pub fn cage(name: &str) -> Arc<Cage> {
+    Arc::new(Cage::new(mesh(name)).unwrap())
+}
+
+/// All cages in data/meshes and, if the environment variable EVENLIGHT_EXTRA_MESHES names a
+/// folder, all OBJ files in that, with their names.
+pub fn all_cages() -> Vec<(String, Arc<Cage>)> {
+    let mut folders = vec![data(), data().join("obstacle")];
+    folders.extend(std::env::var_os("EVENLIGHT_EXTRA_MESHES").map(PathBuf::from));
+    let mut files: Vec<PathBuf> = folders
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(folder).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "obj"))
+        .collect();
+    files.sort();
+    files
+        .into_iter()
+        .map(|path| {
+            let bytes = std::fs::read(&path).unwrap();
+            let (cage, _) = obj::read_cage(&bytes).unwrap();
+            (path.file_name().unwrap().to_string_lossy().into_owned(), Arc::new(cage))
+        })
+        .collect()
+}
+
+pub fn options(scheme: SchemeKind) -> SurfaceOptions {
+    SurfaceOptions { scheme, rules: RuleSet::Generated }
+}
+
+pub fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Surface {
+    Surface::build(cage.clone(), options(scheme)).unwrap()
+}
+
+/// A torus of `m` x `n` quads, all vertices regular.
+pub fn torus(m: u32, n: u32) -> Mesh {
+    let angle = |k: u32, of: u32| std::f64::consts::TAU * f64::from(k) / f64::from(of);
+    let point = |i: u32, j: u32| {
+        let (a, b) = (angle(i, m), angle(j, n));
+        let r = 3.0 + b.cos();
+        [r * a.cos(), r * a.sin(), b.sin()]
+    };
+    let positions = (0..m * n).map(|k| point(k / n, k % n)).collect();
+    let at = |i: u32, j: u32| (i % m) * n + j % n;
+    let quad = |k: u32| {
+        let (i, j) = (k / n, k % n);
+        [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
+    };
+    Mesh::new(positions, (0..m * n).map(quad))
+}
+
+/// Numbers in [0,1) for tests, the same in every run.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.unit() * n as f64) as usize
+    }
+}

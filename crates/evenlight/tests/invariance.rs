@@ -1,0 +1,164 @@
+//! What must not matter: affine maps, the order of vertices, faces and corners, and everything
+//! that a scheme does not see.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::Random;
+use evenlight::point::{norm, sub};
+use evenlight::surface::QuadId;
+use evenlight::{Cage, Mesh, Point, SchemeKind, Surface};
+
+const CAGES: [&str; 4] = [
+    "own_blob_quadriflow_300.obj",
+    "obstacle/pillow_n5.obj",
+    "obstacle/frame_pyramid5.obj",
+    "obstacle/ridges_n7.obj",
+];
+
+fn build(mesh: Mesh, scheme: SchemeKind) -> Surface {
+    common::surface(&Arc::new(Cage::new(mesh).unwrap()), scheme)
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    norm(sub(a, b))
+}
+
+/// Parameters all over the surface, some of them deep in the rings.
+fn samples(surface: &Surface, count: usize) -> Vec<(QuadId, f64, f64)> {
+    let mut random = Random::new(11);
+    (0..count)
+        .map(|k| {
+            let quad = QuadId(random.below(surface.num_quads()) as u32);
+            let depth = if k % 3 == 0 { 0.5_f64.powi(k as i32 % 12) } else { 1.0 };
+            (quad, depth * random.unit(), depth * random.unit())
+        })
+        .collect()
+}
+
+#[test]
+fn affine_maps_commute_with_the_surface() {
+    let map = |p: Point| {
+        [
+            2.0 * p[0] - 0.5 * p[1] + 0.25 * p[2] + 3.0,
+            0.75 * p[1] + p[2] - 1.0,
+            -0.3 * p[0] + 1.5 * p[2] + 0.1 * p[1],
+        ]
+    };
+    for name in CAGES {
+        for scheme in common::BOTH {
+            let mesh = common::mesh(name);
+            let mut moved = mesh.clone();
+            moved.positions.iter_mut().for_each(|p| *p = map(*p));
+            let (a, b) = (build(mesh, scheme), build(moved, scheme));
+            for (quad, u, v) in samples(&a, 500) {
+                let (Some(p), Some(q)) = (a.eval(quad, u, v), b.eval(quad, u, v)) else { continue };
+                assert!(distance(map(p.jet.p), q.jet.p) < 1e-13 * 40.0, "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn planar_cages_give_planes_and_keep_them_exactly() {
+    for n in [3, 5, 6, 7, 8, 9, 10] {
+        let mut mesh = common::mesh(&format!("obstacle/flat_n{n}.obj"));
+        // A plane in which every number below is exact in binary.
+        mesh.positions.iter_mut().for_each(|p| p[2] = 0.25 * p[0] - 0.5 * p[1] + 2.0);
+        let normal = [-0.25, 0.5, 1.0].map(|x| x / 1.3125_f64.sqrt());
+        for scheme in common::BOTH {
+            let surface = build(mesh.clone(), scheme);
+            for (quad, u, v) in samples(&surface, 300) {
+                let Some(p) = surface.eval(quad, u, v) else { continue };
+                let [x, y, z] = p.jet.p;
+                assert!((z - (0.25 * x - 0.5 * y + 2.0)).abs() < 1e-14, "n = {n}");
+                assert!(distance(p.normal, normal) < 1e-12, "n = {n}: {:?}", p.normal);
+                assert!(p.gauss.abs() < 1e-18 && p.mean.abs() < 1e-9, "n = {n}: {p:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_torus_without_extraordinary_vertices_has_the_same_bits_in_all_schemes() {
+    let [cc, eg] = common::BOTH.map(|scheme| build(common::torus(12, 8), scheme));
+    assert!(cc.extraordinary_points().is_empty() && cc.omitted_faces().is_empty());
+    assert!(cc.patches(6).eq(eg.patches(6)));
+    for (quad, u, v) in samples(&cc, 500) {
+        assert_eq!(cc.eval(quad, u, v), eg.eval(quad, u, v));
+    }
+}
+
+#[test]
+fn schemes_differ_only_in_the_faces_at_extraordinary_points() {
+    for (name, cage) in common::all_cages() {
+        let [cc, eg] = common::BOTH.map(|s| Surface::build(cage.clone(), common::options(s)));
+        let (Ok(cc), Ok(eg)) = (cc, eg) else { continue };
+        let regular =
+            |s: &Surface| s.patches(0).map(|p| (p.quad, p.domain, p.patch)).collect::<Vec<_>>();
+        assert_eq!(regular(&cc), regular(&eg), "{name}");
+    }
+}
+
+#[test]
+fn the_order_of_vertices_and_faces_does_not_matter() {
+    let mut random = Random::new(5);
+    for name in CAGES {
+        let mesh = common::mesh(name);
+        let mut new_vertex: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+        let mut old_face: Vec<usize> = (0..mesh.faces.len()).collect();
+        for k in (1..new_vertex.len()).rev() {
+            new_vertex.swap(k, random.below(k + 1));
+        }
+        for k in (1..old_face.len()).rev() {
+            old_face.swap(k, random.below(k + 1));
+        }
+        let mut positions = mesh.positions.clone();
+        for (old, &new) in new_vertex.iter().enumerate() {
+            positions[new as usize] = mesh.positions[old];
+        }
+        let faces: Vec<&[_]> = mesh.faces.iter().collect();
+        let shuffled = old_face
+            .iter()
+            .map(|&f| faces[f].iter().map(|v| new_vertex[v.index()]).collect::<Vec<u32>>());
+        let shuffled = Mesh::new(positions, shuffled);
+        for scheme in common::BOTH {
+            let (a, b) = (build(mesh.clone(), scheme), build(shuffled.clone(), scheme));
+            for (quad, u, v) in samples(&a, 500) {
+                let new = old_face.iter().position(|&f| f == quad.0 as usize).unwrap();
+                let (p, q) = (a.eval(quad, u, v), b.eval(QuadId(new as u32), u, v));
+                assert_eq!(p.is_some(), q.is_some());
+                let (Some(p), Some(q)) = (p, q) else { continue };
+                assert!(distance(p.jet.p, q.jet.p) < 1e-13, "{name}");
+                assert!(distance(p.jet.du, q.jet.du) < 1e-11, "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_first_corner_of_a_face_does_not_matter() {
+    for name in CAGES {
+        let mesh = common::mesh(name);
+        let turned = mesh.faces.iter().enumerate().map(|(f, corners)| {
+            let mut corners: Vec<u32> = corners.iter().map(|v| v.0).collect();
+            corners.rotate_left(f % 4);
+            corners
+        });
+        let turned = Mesh::new(mesh.positions.clone(), turned);
+        for scheme in common::BOTH {
+            let (a, b) = (build(mesh.clone(), scheme), build(turned.clone(), scheme));
+            for (quad, u, v) in samples(&a, 500) {
+                // The new (0,0) is the old corner k.
+                let [s, t] =
+                    [[u, v], [v, 1.0 - u], [1.0 - u, 1.0 - v], [1.0 - v, u]][quad.0 as usize % 4];
+                let (Some(p), Some(q)) = (a.eval(quad, u, v), b.eval(quad, s, t)) else { continue };
+                assert!(distance(p.jet.p, q.jet.p) < 1e-13, "{name}");
+                if !p.mean.is_nan() {
+                    assert!(distance(p.normal, q.normal) < 1e-9, "{name}");
+                }
+            }
+        }
+    }
+}

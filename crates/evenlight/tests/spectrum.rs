@@ -1,0 +1,86 @@
+//! Spectra and characteristic maps against the papers' numbers and the closed forms.
+#![cfg(feature = "spectrum")]
+
+use evenlight::analyse::spectrum::{Spectrum, spectrum};
+use evenlight::{RuleSet, SchemeKind};
+
+/// lambda of Catmull-Clark: the larger root of mode m at valence n.
+fn catmull_clark_eigenvalue(n: usize, m: usize) -> f64 {
+    let c = (std::f64::consts::TAU * m as f64 / n as f64).cos();
+    (c + 5.0 + ((c + 1.0) * (c + 9.0)).sqrt()) / 16.0
+}
+
+fn all(scheme: SchemeKind, rules: RuleSet) -> Vec<Spectrum> {
+    (3..=16).filter(|&n| n != 4).filter_map(|n| spectrum(scheme, rules, n)).collect()
+}
+
+#[test]
+fn catmull_clark_has_its_closed_form_eigenvalues() {
+    for s in all(SchemeKind::CatmullClark, RuleSet::Generated) {
+        let n = s.valence;
+        assert_eq!(s.moduli.len(), 6 * n + 1);
+        assert!((s.lambda - catmull_clark_eigenvalue(n, 1)).abs() < 1e-14);
+        for (k, expected) in [1.0, s.lambda, s.lambda].into_iter().enumerate() {
+            assert!((s.moduli[k] - expected).abs() < 1e-13, "n = {n}");
+        }
+        if n > 4 {
+            let mu = catmull_clark_eigenvalue(n, 2) / (s.lambda * s.lambda);
+            assert!((s.mu_over_lambda2 - mu).abs() < 1e-12, "n = {n}");
+        }
+        assert!(s.jacobian_min > 0.0);
+    }
+}
+
+/// Full precision: `report.txt` of the specification, computed by an independent program.
+#[test]
+fn generated_evolving_guide_rules_have_the_reference_spectrum() {
+    let reference = [
+        (3, 0.99996, 0.5530),
+        (5, 1.00024, 0.7527),
+        (6, 1.00286, 0.6435),
+        (7, 1.01565, 0.5851),
+        (8, 1.02664, 0.5499),
+        (9, 1.04720, 0.5269),
+        (10, 1.05702, 0.5110),
+        (11, 1.06111, 0.4996),
+        (12, 1.06296, 0.4910),
+        (13, 1.06393, 0.4845),
+        (14, 1.06454, 0.4793),
+        (15, 1.06498, 0.4752),
+        (16, 1.06533, 0.4719),
+    ];
+    let spectra = all(SchemeKind::EvolvingGuide, RuleSet::Generated);
+    assert_eq!(spectra.len(), reference.len());
+    for (s, (n, mu, jacobian)) in spectra.iter().zip(reference) {
+        assert_eq!((s.valence, s.moduli.len()), (n, 12 * n + 1));
+        assert!((s.lambda - catmull_clark_eigenvalue(n, 1)).abs() < 1e-12, "n = {n}");
+        assert!((s.moduli[0] - 1.0).abs() < 1e-15);
+        assert!((s.moduli[1] - s.lambda).abs() < 1e-12 && (s.moduli[2] - s.lambda).abs() < 1e-12);
+        assert!((s.mu_over_lambda2 - mu).abs() < 6e-6, "n = {n}: {}", s.mu_over_lambda2);
+        assert!((s.jacobian_min - jacobian).abs() < 6e-5, "n = {n}: {}", s.jacobian_min);
+    }
+}
+
+/// [KP23-EG, Section 6]; n = 7 is printed as 1.00241, which we take for a misprint: the printed
+/// rules give 1.01768. n = 10 is printed as 1.05815, truncated.
+#[test]
+fn published_evolving_guide_rules_have_the_printed_spectrum() {
+    let printed = [
+        (3, 1.00015),
+        (5, 1.00016),
+        (6, 1.00151),
+        (7, 1.01768),
+        (8, 1.02887),
+        (9, 1.04865),
+        (10, 1.05816),
+    ];
+    let spectra = all(SchemeKind::EvolvingGuide, RuleSet::Published);
+    assert_eq!(spectra.len(), printed.len());
+    for (s, (n, mu)) in spectra.iter().zip(printed) {
+        assert_eq!(s.valence, n);
+        assert!((s.mu_over_lambda2 - mu).abs() < 1.2e-5, "n = {n}: {}", s.mu_over_lambda2);
+        // The paper: lambda differs from Catmull-Clark's by less than 1e-3.
+        assert!((s.lambda - catmull_clark_eigenvalue(n, 1)).abs() < 1e-3);
+        assert!(s.jacobian_min > 0.4);
+    }
+}
