@@ -1,1 +1,40 @@
-fn main() {}
+//! Chores of the workspace: `cargo xtask CHORE`.
+//!
+//! One file per chore. Chores that run the library belong behind `#[cfg(feature = "library")]`,
+//! so that `tables` can be built while the library cannot.
+
+mod tables;
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+/// Chores of the Evenlight workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask")]
+enum Chore {
+    Tables(tables::Arguments),
+}
+
+fn main() -> ExitCode {
+    match run(&Chore::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
+    match chore {
+        Chore::Tables(arguments) => tables::run(arguments),
+    }
+}
+
+/// The folder or file `path` of the workspace.
+fn workspace(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+}
