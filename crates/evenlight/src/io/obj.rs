@@ -23,6 +23,7 @@
 use std::fmt;
 use std::io::{BufWriter, Write};
 
+use super::digits::Digits;
 use crate::mesh::{Cage, CheckError, FaceId, Mesh, Names, VertexId, Warning};
 use crate::point::Point;
 
@@ -257,8 +258,8 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> std::io::Result<()> {
 fn write_vertex(position: Point, out: &mut impl Write) -> std::io::Result<()> {
     out.write_all(b"v")?;
     for x in position {
-        let plain = x == 0.0 || (1e-5..1e16).contains(&x.abs());
-        if plain { write!(out, " {x}") } else { write!(out, " {x:e}") }?;
+        // `Digits` stands for results that do not exist; a coordinate must not turn into 0.
+        if x.is_nan() { out.write_all(b" NaN")? } else { write!(out, " {}", Digits(x))? }
     }
     out.write_all(b"\n")
 }

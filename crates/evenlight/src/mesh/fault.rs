@@ -304,13 +304,10 @@ mod tests {
             (MeshError::EdgeWithManyFaces { edge, faces: faces.to_vec() }, "delete the others"),
             (MeshError::VertexNotAFan { vertex }, "split the vertex"),
         ] {
-            let (_, advice) = fault.to_string().split_once(": ").map(own).unwrap();
-            assert!(advice.contains(remedy), "{fault}");
+            let text = fault.to_string();
+            let (_, advice) = text.split_once(": ").unwrap();
+            assert!(advice.contains(remedy), "{text}");
         }
-    }
-
-    fn own((a, b): (&str, &str)) -> (String, String) {
-        (a.into(), b.into())
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The cage: positions and faces as a file says them, and the checked form of them.
 //!
 //! [`Mesh`] is what was read: nothing about it is promised. [`Cage`] is a mesh that passed
-//! [`check`]: an orientable surface, possibly with boundary, whose connectivity
+//! the checks of [`Cage::new`]: an orientable surface, possibly with boundary, whose connectivity
 //! ([`Topology`]) can be walked without a case that fails. Everything behind the cage is
 //! total: it cannot meet bad input any more.
 
