@@ -3,6 +3,8 @@
 //! One file per chore. Chores that run the library belong behind `#[cfg(feature = "library")]`,
 //! so that `tables` can be built while the library cannot.
 
+#[cfg(feature = "library")]
+mod bench;
 mod tables;
 
 use std::error::Error;
@@ -15,6 +17,8 @@ use clap::Parser;
 #[derive(Parser)]
 #[command(name = "cargo xtask")]
 enum Chore {
+    #[cfg(feature = "library")]
+    Bench(bench::Arguments),
     Tables(tables::Arguments),
 }
 
@@ -30,6 +34,8 @@ fn main() -> ExitCode {
 
 fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
     match chore {
+        #[cfg(feature = "library")]
+        Chore::Bench(arguments) => bench::run(arguments),
         Chore::Tables(arguments) => tables::run(arguments),
     }
 }

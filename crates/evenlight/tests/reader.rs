@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use evenlight::io::obj::{self, Notice, Obj, UnknownTag};
 use evenlight::{Cage, FaceId, Mesh, VertexId};
@@ -360,7 +360,7 @@ fn large_file(n: usize) -> Vec<u8> {
 }
 
 #[test]
-fn a_million_quads_are_read_and_checked_in_seconds() {
+fn a_million_quads_are_read_and_checked() {
     let text = large_file(1000);
     let start = Instant::now();
     let obj = obj::read(&text).unwrap();
@@ -370,6 +370,4 @@ fn a_million_quads_are_read_and_checked_in_seconds() {
     println!("{} bytes: read in {reading:?}, read and checked in {total:?}", text.len());
     assert_eq!((cage.num_faces(), cage.num_boundary_edges()), (1_000_000, 4000));
     assert_eq!(cage.interior_valences(), BTreeMap::from([(4, 999 * 999)]));
-    // About a second; the bound leaves room for a busy machine.
-    assert!(total < Duration::from_secs(10), "{total:?}");
 }
