@@ -10,10 +10,9 @@
 //! | `mean_curvature` | `float` | H, in 1/length; negative on convex bodies |
 //!
 //! and each face the list `vertex_indices` of three `int` with a `uchar` count. These are the
-//! names and types that MeshLab and ParaView look for (either reads `double` positions beside
-//! `float` normals; ParaView wants the name `vertex_indices`). PLY has no standard name for
-//! curvature: readers of plain PLY see it, Blender takes it as attributes, ParaView's reader
-//! leaves it out.
+//! names and types that MeshLab and ParaView look for; both read `double` positions beside
+//! `float` normals. PLY has no standard name for curvature: general readers hand it on under
+//! the names above, Blender takes it as attributes, MeshLab and ParaView leave it out.
 
 use std::io::{self, Write};
 
