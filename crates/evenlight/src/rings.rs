@@ -6,7 +6,7 @@
 //! ```text
 //!  b ^
 //!  1 +-------+---+---+   ring l = 0, 1, 2, ... covers 2^-(l+1) < max(a,b) <= 2^-l
-//!    |       |       |   with three patches (see `scheme::rules`)
+//!    |       |       |   with three patches or more
 //!    |       | ring 0|
 //! .5 +---+---+       +
 //!    | r 1   |       |
@@ -34,7 +34,7 @@ use std::sync::{Arc, OnceLock};
 use crate::net::{CNet, DNet};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add_scaled, cross, dot, norm, scale, sub, unit};
-use crate::scheme::{PATCH_ORIGINS, RuleSet, Rules, SchemeKind, Subdominant};
+use crate::scheme::{RuleSet, Rules, SchemeKind, Subdominant};
 
 /// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
 /// valence.
@@ -109,22 +109,24 @@ impl Rings {
     /// The surface over a d-net with c_0 by [`DNet::center`]; `None` if the scheme has no rules
     /// for its valence or does not work on d-nets.
     pub fn from_dnet(dnet: &DNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
+        if !kind.takes_dnets() {
+            return None;
+        }
         let rules = Arc::new(ValenceRules::new(kind, set, dnet.valence())?);
         let center = dnet.center();
-        let moved = dnet.sectors.iter().map(|s| s.map(|p| sub(p, center))).collect();
-        let state = kind.state_of_dnet(&DNet { sectors: moved })?;
-        Some(Self::start(state, center, rules))
+        let net = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
+        Some(Self::start(net, center, rules))
     }
 
     pub(crate) fn with_rules(cnet: &CNet, rules: Arc<ValenceRules>) -> Self {
         let center = rules.kind.limit_point(cnet);
-        let state = rules.kind.state(&cnet.relative_to(center));
-        Self::start(state, center, rules)
+        let net = rules.kind.net(&cnet.relative_to(center));
+        Self::start(net, center, rules)
     }
 
-    fn start(state: Vec<Vector>, center: Point, rules: Arc<ValenceRules>) -> Self {
-        let frame = Frame::new(&rules.subdominant, &state);
-        let mut first: Vec<Vector> = state.iter().map(|&p| frame.coordinates(p)).collect();
+    fn start(net: Vec<Vector>, center: Point, rules: Arc<ValenceRules>) -> Self {
+        let frame = Frame::new(&rules.subdominant, &net);
+        let mut first: Vec<Vector> = net.iter().map(|&p| frame.coordinates(p)).collect();
         if frame.has_plane {
             rules.subdominant.remove_from_coordinate(2, &mut first);
         }
@@ -151,17 +153,30 @@ impl Rings {
         if self.frame.has_plane { self.frame.axes[2] } else { [f64::NAN; 3] }
     }
 
-    /// The three patches of every sector of ring `ring` (from 0), in the order sector, patch.
+    /// The number of patches in each sector of a ring.
+    pub fn patches_per_sector(&self) -> usize {
+        self.rules.rules.patches_per_sector()
+    }
+
+    /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; in ring l
+    /// it is 2^-l as large. The patch's own parameters run the same way.
     ///
-    /// Patch 0 covers [1/2,1] x [1/2,1] of the sector's (A,B) = 2^ring (a,b), patch 1
-    /// [1/2,1] x [0,1/2], patch 2 [0,1/2] x [1/2,1].
+    /// Patches lie in three squares, [1/2,1] x [1/2,1], [1/2,1] x [0,1/2] and [0,1/2] x [1/2,1],
+    /// one in each or 2 x 2, the index along b fastest.
+    pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
+        let (corner, size) = self.rules.rules.patch_square(which);
+        corner.map(|x| [x, x + size])
+    }
+
+    /// All patches of ring `ring` (from 0), sector by sector.
     pub fn patches(&self, ring: usize) -> Vec<Patch> {
         self.with_ring(ring, |r| r.patches.iter().map(|p| self.to_world(ring, p)).collect())
     }
 
-    /// Patch `which` (0 to 2) of sector `s` of ring `ring`, numbered as in [`Rings::patches`].
+    /// Patch `which` of sector `s` of ring `ring`.
     pub fn patch(&self, ring: usize, s: usize, which: usize) -> Patch {
-        self.with_ring(ring, |r| self.to_world(ring, &r.patches[3 * s + which]))
+        let number = self.patches_per_sector() * s + which;
+        self.with_ring(ring, |r| self.to_world(ring, &r.patches[number]))
     }
 
     /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
@@ -181,15 +196,10 @@ impl Rings {
         }
         let ring = ring_of(a.max(b));
         let [a, b] = [a, b].map(|x| scaled_up(x, ring));
-        let which = match (a > 0.5, b > 0.5) {
-            (true, true) => 0,
-            (true, false) => 1,
-            _ => 2,
-        };
-        self.eval_scaled(ring, s, which, [a, b])
+        self.eval_scaled(ring, s, self.rules.rules.patch_at([a, b]), [a, b])
     }
 
-    /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patches`]; the
+    /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
     /// polynomial is extrapolated if (a,b) is not in the patch.
     pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
         self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring)))
@@ -197,10 +207,10 @@ impl Rings {
 
     /// A patch at (A,B) = 2^ring (a,b).
     fn eval_scaled(&self, ring: usize, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
-        let [a0, b0] = PATCH_ORIGINS[which];
-        let at = [2.0 * (a - a0), 2.0 * (b - b0)];
-        let jet = self.with_ring(ring, |r| r.patches[3 * s + which].jet(at[0], at[1]));
-        self.in_world(ring, &jet)
+        let ([a0, b0], size) = self.rules.rules.patch_square(which);
+        let number = self.patches_per_sector() * s + which;
+        let jet = self.with_ring(ring, |r| r.patches[number].jet((a - a0) / size, (b - b0) / size));
+        self.in_world(ring, size, &jet)
     }
 
     fn at_center(&self) -> SurfacePoint {
@@ -211,13 +221,13 @@ impl Rings {
 
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
     /// in (a,b).
-    fn in_world(&self, ring: usize, jet: &Jet) -> SurfacePoint {
+    fn in_world(&self, ring: usize, size: f64, jet: &Jet) -> SurfacePoint {
         let lambda = self.lambda();
         let sigma = power(lambda, ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
-        // A patch parameter runs 2^(ring+1) times as fast as a and b.
-        let first = 2.0 * power(2.0 * lambda, ring);
-        let second = 4.0 * power(4.0 * lambda, ring);
+        // A patch parameter runs 2^ring / size times as fast as a and b.
+        let first = power(2.0 * lambda, ring) / size;
+        let second = power(4.0 * lambda, ring) / (size * size);
         let world = |factor: f64, r: Vector| self.frame.world(factor, zeta, r);
         let (normal, gauss, mean) = normal_and_curvature(jet, sigma, zeta);
         SurfacePoint {
@@ -267,9 +277,10 @@ impl Rings {
         let rules = &self.rules.rules;
         let refined = rules.refine(net);
         // The patches need both nets in one scale: that of `net`, which `refined` has still.
-        let patches = (0..3 * rules.valence)
+        let per_sector = rules.patches_per_sector();
+        let patches = (0..per_sector * rules.valence)
             .map(|k| {
-                let coefs = rules.patch(k / 3, k % 3, net, &refined);
+                let coefs = rules.patch(k / per_sector, k % per_sector, net, &refined);
                 Patch::new([rules.degree; 2], coefs)
             })
             .collect();

@@ -25,7 +25,7 @@ use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add_scaled, scale};
 use crate::rings::{Rings, ValenceRules};
-use crate::scheme::{PATCH_ORIGINS, RuleSet, SchemeKind};
+use crate::scheme::{RuleSet, SchemeKind};
 
 /// The number of a parametric quad: all quads of face 0, then of face 1, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -382,11 +382,13 @@ impl Surface {
                 source: Source::Net(net),
             }),
             Piece::Sector { point, sector, corner } => {
-                let all = (0..rings).flat_map(|ring| (0..3).map(move |which| (ring, which)));
+                let around = &self.rings[point as usize];
+                let count = around.patches_per_sector();
+                let all = (0..rings).flat_map(|ring| (0..count).map(move |which| (ring, which)));
                 out.extend(all.map(|(ring, which)| PatchPlace {
                     role: Role::Ring(ring + 1),
                     quad: square.quad,
-                    domain: square.part(ring_domain(corner, ring, which)),
+                    domain: square.part(ring_domain(corner, ring, around.patch_domain(which))),
                     point: Some(point as usize),
                     sector: Some(sector as usize),
                     source: Source::Ring { which, square, corner },
@@ -599,11 +601,11 @@ fn turned_patch(corner: u8, patch: &Patch) -> Patch {
     Patch::new([d, d], coefs.collect())
 }
 
-/// The (u,v) rectangle of patch `which` of ring `ring` (from 0) in the square of its sector.
-fn ring_domain(corner: u8, ring: usize, which: usize) -> [[f64; 2]; 2] {
-    let size = (0..ring).fold(1.0, |size, _| 0.5 * size);
-    let [a, b] = PATCH_ORIGINS[which].map(|x| x * size);
+/// The (u,v) rectangle, in the square of its sector, of a patch of ring `ring` (from 0) that
+/// covers `domain` in ring 0.
+fn ring_domain(corner: u8, ring: usize, [[a0, a1], [b0, b1]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let scale = (0..ring).fold(1.0, |scale, _| 0.5 * scale);
     let ends =
-        [[a, b], [a + 0.5 * size, b + 0.5 * size]].map(|end| from_sector_parameters(corner, end));
+        [[a0, b0], [a1, b1]].map(|end| from_sector_parameters(corner, end.map(|x| scale * x)));
     [0, 1].map(|d| [ends[0][d].min(ends[1][d]), ends[0][d].max(ends[1][d])])
 }

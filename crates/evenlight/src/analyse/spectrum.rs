@@ -11,7 +11,7 @@
 use nalgebra::{Complex, DMatrix};
 
 use crate::patch::Patch;
-use crate::scheme::{PATCH_ORIGINS, RuleSet, Rules, SchemeKind, Subdominant};
+use crate::scheme::{RuleSet, Rules, SchemeKind, Subdominant};
 
 /// Grid points along each side of a patch, ends included, for the Jacobian.
 const GRID: usize = 17;
@@ -71,7 +71,7 @@ fn smallest_jacobian(rules: &Rules, subdominant: &Subdominant) -> f64 {
     let net = subdominant.characteristic_net();
     let refined = rules.refine(&net);
     let mut jacobians = Vec::new();
-    for which in 0..PATCH_ORIGINS.len() {
+    for which in 0..rules.patches_per_sector() {
         let patch = Patch::new([rules.degree; 2], rules.patch(0, which, &net, &refined));
         for i in 0..GRID {
             for j in 0..GRID {

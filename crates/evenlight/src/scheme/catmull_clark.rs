@@ -1,27 +1,22 @@
 //! Catmull-Clark subdivision as a scheme of rings [CC78], [Stam98].
 //!
-//! The state is the c-net relative to the limit point. The extraordinary vertex e itself is no
+//! The net is the c-net relative to the limit point. The extraordinary vertex e itself is no
 //! part of it: that the limit point is the origin says n^2 e + 4 sum c_6 + sum c_5 = 0, and e
 //! follows. (It also takes the eigenvalue 1 out of the matrix, so that rounding cannot bring it
 //! back.) One refinement gives the nodes (a,b), a,b <= 3, around the next, half as large c-net,
 //! hence three bi-3 patches per sector.
 
 use super::rules::{PatchRule, Row, RowBuilder, Rules};
-use crate::net::{CNET_NODES, CNet, NodeRef, cnet_node};
+use crate::net::{CNET_NODES, NodeRef, cnet_node};
 use crate::patch::basis::CUBIC_B_SPLINE_TO_BB;
 
 /// The rules of Catmull-Clark subdivision at valence `n`.
 pub(crate) fn rules(n: usize) -> Rules {
     let refine =
         (0..CNET_NODES).map(|k| refined_node(n, k as isize / 2, k as isize % 2 + 1)).collect();
-    // The corners of the three patches on the refined grid, in the order of PATCH_ORIGINS.
-    let patches = [(1, 1), (1, 0), (0, 1)].map(|(a, b)| patch(n, a, b));
-    Rules { valence: n, nodes_per_sector: CNET_NODES, refine, degree: 3, patches }
-}
-
-/// The state: the nodes of `cnet`, which must be relative to its Catmull-Clark limit.
-pub(crate) fn state(cnet: &CNet) -> Vec<[f64; 3]> {
-    cnet.sectors.iter().flatten().copied().collect()
+    // The corners of the three squares on the refined grid, in the order of `Rules`.
+    let patches = [(1, 1), (1, 0), (0, 1)].map(|(a, b)| patch(n, a, b)).into();
+    Rules { valence: n, nodes_per_sector: CNET_NODES, refine, degree: 3, split: 1, patches }
 }
 
 /// e as a function of the other nodes.

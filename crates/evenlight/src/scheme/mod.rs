@@ -6,10 +6,11 @@
 mod catmull_clark;
 mod evolving_guide;
 mod rules;
+mod spline;
 mod subdominant;
 mod tables;
 
-pub(crate) use rules::{PATCH_ORIGINS, Rules};
+pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;
 
 use crate::net::{CNet, DNet};
@@ -88,19 +89,18 @@ impl SchemeKind {
     }
 
     /// The net on which the rules work, from a c-net relative to its limit point.
-    pub(crate) fn state(self, cnet: &CNet) -> Vec<[f64; 3]> {
+    pub(crate) fn net(self, cnet: &CNet) -> Vec<[f64; 3]> {
         match self {
-            Self::CatmullClark => catmull_clark::state(cnet),
-            Self::EvolvingGuide => evolving_guide::state(cnet),
+            Self::CatmullClark => cnet.sectors.iter().flatten().copied().collect(),
+            Self::EvolvingGuide => DNet::from_cnet(cnet).sectors.into_iter().flatten().collect(),
         }
     }
 
-    /// The net on which the rules work, from a d-net relative to its limit point; `None` for
-    /// schemes that work on c-nets.
-    pub(crate) fn state_of_dnet(self, dnet: &DNet) -> Option<Vec<[f64; 3]>> {
+    /// Whether the rules work on d-nets.
+    pub(crate) fn takes_dnets(self) -> bool {
         match self {
-            Self::CatmullClark => None,
-            Self::EvolvingGuide => Some(evolving_guide::state_of_dnet(dnet)),
+            Self::CatmullClark => false,
+            Self::EvolvingGuide => true,
         }
     }
 }

@@ -18,21 +18,20 @@
 /// Node `k` of the sector `r` sectors further on is `r * nodes_per_sector + k`.
 pub(crate) type Row = Vec<(usize, f64)>;
 
-/// The patches of one sector of a ring, in the order of [`Rules::patches`].
+/// The linear rules of one scheme at one valence.
+///
+/// The patches of a ring lie in three squares of each sector, one patch or 2 x 2 in each:
 ///
 /// ```text
-///  b ^ line s
-///  1 +-----+-----+
-///    |  2  |  0  |      a and b in [0,1] from the centre along lines s-1 and s;
-/// .5 +-----+-----+      each patch has its own parameters running the same way
-///    | next|  1  |
+///  b ^ line s                      a and b in [0,1] from the centre along lines s-1 and s;
+///  1 +-----+-----+                 each patch has its own parameters running the same way
+///    |  2  |  0  |
+/// .5 +-----+-----+      one patch per square, or   | 1 3 |   (number 4 square + k)
+///    | next|  1  |                                 | 0 2 |
 ///    | ring|     |
 ///  0 +-----+-----+--> a, line s-1
 ///    0    .5     1
 /// ```
-pub(crate) const PATCH_ORIGINS: [[f64; 2]; 3] = [[0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
-
-/// The linear rules of one scheme at one valence.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
     /// The valence n.
@@ -43,9 +42,14 @@ pub(crate) struct Rules {
     pub(crate) refine: Vec<Row>,
     /// The degree of the patches in both parameters.
     pub(crate) degree: usize,
-    /// The BB coefficients of the three patches of sector 0.
-    pub(crate) patches: [PatchRule; 3],
+    /// The patches along each side of a square: 1 or 2.
+    pub(crate) split: usize,
+    /// The BB coefficients of the patches of sector 0.
+    pub(crate) patches: Vec<PatchRule>,
 }
+
+/// The corners of the three squares that are nearest to the centre.
+const SQUARES: [[f64; 2]; 3] = [[0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
 
 /// How a patch is made of the net and its refinement.
 #[derive(Clone, Debug, Default)]
@@ -72,7 +76,35 @@ impl Rules {
         refined
     }
 
-    /// The BB coefficients of patch `which` (0 to 2) of sector `s` in the ring between `old` and
+    /// The number of patches in each sector of a ring.
+    pub(crate) fn patches_per_sector(&self) -> usize {
+        self.patches.len()
+    }
+
+    /// The corner (a,b) of patch `which` nearest to the centre, and the patch's size.
+    pub(crate) fn patch_square(&self, which: usize) -> ([f64; 2], f64) {
+        let size = 0.5 / self.split as f64;
+        let (square, part) = (which / (self.split * self.split), which % (self.split * self.split));
+        let [a, b] = SQUARES[square];
+        let [i, j] = [part / self.split, part % self.split];
+        ([a + i as f64 * size, b + j as f64 * size], size)
+    }
+
+    /// The patch of the outermost ring that has (a,b), 1/2 < max(a,b) <= 1.
+    pub(crate) fn patch_at(&self, [a, b]: [f64; 2]) -> usize {
+        let square = match (a > 0.5, b > 0.5) {
+            (true, true) => 0,
+            (true, false) => 1,
+            _ => 2,
+        };
+        let part = |x: f64, k: usize| {
+            let inside = (x - SQUARES[square][k]) * 2.0 * self.split as f64;
+            (inside.ceil() as usize).saturating_sub(1)
+        };
+        square * self.split * self.split + part(a, 0) * self.split + part(b, 1)
+    }
+
+    /// The BB coefficients of patch `which` of sector `s` in the ring between `old` and
     /// `new` = A `old`.
     pub(crate) fn patch(
         &self,
@@ -121,6 +153,10 @@ pub(crate) struct RowBuilder {
 impl RowBuilder {
     pub(crate) fn new(valence: usize, nodes_per_sector: usize) -> Self {
         Self { valence, nodes_per_sector, weights: vec![0.0; valence * nodes_per_sector] }
+    }
+
+    pub(crate) fn valence(&self) -> usize {
+        self.valence
     }
 
     /// Adds weight `w` on node `node` of the sector `turn` sectors further on.
