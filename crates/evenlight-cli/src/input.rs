@@ -1,0 +1,114 @@
+//! Where input comes from, a file or stdin as `-`, and the way from there to a surface.
+
+use std::convert::Infallible;
+use std::fmt;
+use std::fs;
+use std::io::{self, Read};
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::sync::Arc;
+
+use evenlight::io::obj;
+use evenlight::{Cage, Surface, SurfaceOptions};
+
+use crate::error::{Failure, warn};
+use crate::options::SurfaceArgs;
+
+/// A place to read from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// Standard input, `-` on the command line.
+    Stdin,
+    /// A file.
+    File(PathBuf),
+}
+
+impl FromStr for Source {
+    type Err = Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Infallible> {
+        Ok(if text == "-" { Self::Stdin } else { Self::File(text.into()) })
+    }
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Stdin => f.write_str("stdin"),
+            Self::File(path) => path.display().fmt(f),
+        }
+    }
+}
+
+impl Source {
+    /// All bytes; a failure names the place.
+    pub fn read(&self) -> Result<Vec<u8>, Failure> {
+        let bytes = match self {
+            Self::Stdin => read_stdin(),
+            Self::File(path) => fs::read(path),
+        };
+        bytes.map_err(|error| Failure::io(self, &error))
+    }
+
+    /// All bytes, which must be UTF-8; a failure names the place.
+    pub fn read_text(&self) -> Result<String, Failure> {
+        String::from_utf8(self.read()?)
+            .map_err(|_| Failure::Unusable(format!("{self}: this is not a text file (UTF-8)")))
+    }
+}
+
+fn read_stdin() -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    io::stdin().lock().read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The surface that `args` ask for; what is ignored or left out is said on stderr.
+pub fn read_surface(args: &SurfaceArgs) -> Result<Surface, Failure> {
+    let surface = build(read_cage(&args.cage)?, args.options(), &args.cage)?;
+    report_omitted(&surface, &args.cage)?;
+    Ok(surface)
+}
+
+/// The cage in `source`; what is ignored is said on stderr.
+pub fn read_cage(source: &Source) -> Result<Arc<Cage>, Failure> {
+    let (cage, notices) = obj::read_cage(&source.read()?)
+        .map_err(|error| Failure::Unusable(format!("{source}: {error}")))?;
+    for notice in notices {
+        warn(format_args!("{source}: {notice}"));
+    }
+    Ok(Arc::new(cage))
+}
+
+/// The surface over `cage`, which was read from `source`.
+pub fn build(
+    cage: Arc<Cage>,
+    options: SurfaceOptions,
+    source: &Source,
+) -> Result<Surface, Failure> {
+    Surface::build(cage, options).map_err(|error| Failure::Unusable(format!("{source}: {error}")))
+}
+
+/// Says on stderr which faces have no surface.
+///
+/// # Errors
+///
+/// If none has.
+pub fn report_omitted(surface: &Surface, source: &Source) -> Result<(), Failure> {
+    let faces = surface.cage().num_faces();
+    match surface.omitted_faces().len() {
+        0 => Ok(()),
+        omitted if omitted == faces => Err(Failure::Unusable(format!(
+            "{source}: all {faces} faces touch a boundary and are left out: no surface remains"
+        ))),
+        omitted => {
+            warn(format_args!("{source}: {}", omitted_text(omitted, faces)));
+            Ok(())
+        }
+    }
+}
+
+/// The sentence on faces without a surface.
+pub fn omitted_text(omitted: usize, faces: usize) -> String {
+    format!("{omitted} of {faces} faces touch a boundary and are left out")
+}

@@ -1,0 +1,71 @@
+//! `evenlight mesh`: triangles of the limit surface.
+
+use clap::{Args, ValueEnum};
+use evenlight::Surface;
+use evenlight::io::{obj_out, ply, stl};
+use evenlight::tessellate::{TriangleMesh, tessellate};
+
+use crate::error::Failure;
+use crate::input;
+use crate::options::SurfaceArgs;
+use crate::output::Target;
+use crate::progress::Progress;
+
+/// Arguments of `evenlight mesh`.
+#[derive(Args, Debug)]
+pub struct MeshArgs {
+    #[command(flatten)]
+    surface: SurfaceArgs,
+
+    /// The file to write: .obj with normals, .ply with normals and curvature, or .stl; `-` for
+    /// stdout
+    #[arg(short, long, value_name = "FILE")]
+    output: Target,
+
+    /// Format, if the file's extension does not tell
+    #[arg(long, value_enum)]
+    format: Option<MeshFormat>,
+
+    /// Segments per edge of the cage
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    rate: u16,
+}
+
+/// Files that hold triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MeshFormat {
+    /// Wavefront OBJ with normals
+    Obj,
+    /// PLY with normals, Gauss and mean curvature per vertex
+    Ply,
+    /// Binary STL
+    Stl,
+}
+
+/// Runs `evenlight mesh`.
+pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
+    let format = args.output.format(args.format)?;
+    let progress = Progress::new(3, quiet);
+    progress.stage("Building the surface");
+    let surface = input::read_surface(&args.surface)?;
+    progress.step();
+    progress.stage("Evaluating vertices");
+    let mesh = triangles(&surface, args.rate.into())?;
+    progress.step();
+    progress.stage("Writing triangles");
+    write(&mesh, format, &args.output)
+}
+
+/// Triangles with `rate` segments per edge.
+pub fn triangles(surface: &Surface, rate: usize) -> Result<TriangleMesh, Failure> {
+    tessellate(surface, rate).map_err(|error| Failure::Unusable(error.to_string()))
+}
+
+/// Writes `mesh`.
+pub fn write(mesh: &TriangleMesh, format: MeshFormat, target: &Target) -> Result<(), Failure> {
+    target.write(|mut out| match format {
+        MeshFormat::Obj => obj_out::write(mesh, &mut out),
+        MeshFormat::Ply => ply::write(mesh, &mut out),
+        MeshFormat::Stl => stl::write(mesh, &mut out),
+    })
+}

@@ -1,0 +1,124 @@
+//! Options that several subcommands share.
+
+use std::ops::RangeInclusive;
+
+use clap::{Args, ValueEnum};
+use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
+
+use crate::input::Source;
+
+/// Options that stand before or after any subcommand.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct Global {
+    /// Never draw the progress bar (which shows on a terminal only, after one second);
+    /// warnings and errors are still written
+    #[arg(short, long, global = true, display_order = 100)]
+    pub quiet: bool,
+
+    /// Number of threads; the results do not depend on it [default: one per core]
+    #[arg(long, global = true, display_order = 101, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+/// The cage and the rules that make a surface of it.
+#[derive(Args, Clone, Debug)]
+pub struct SurfaceArgs {
+    /// The cage: an OBJ file with quads and n-gons, counter-clockwise; `-` for stdin
+    pub cage: Source,
+
+    /// Subdivision scheme
+    #[arg(long, value_enum, default_value_t = Scheme::Eg)]
+    pub scheme: Scheme,
+
+    #[command(flatten)]
+    pub rules: RulesArg,
+}
+
+/// Which tables of weights the scheme takes.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct RulesArg {
+    /// Tables of the scheme `eg` (`cc` has none)
+    #[arg(long, value_enum, default_value_t = Rules::Generated)]
+    pub rules: Rules,
+}
+
+impl SurfaceArgs {
+    /// Scheme and rules in the library's terms.
+    pub fn options(&self) -> SurfaceOptions {
+        SurfaceOptions { scheme: self.scheme.into(), rules: self.rules.rules.into() }
+    }
+}
+
+/// The subdivision schemes by their short names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Scheme {
+    /// Catmull-Clark: bi-3 rings
+    Cc,
+    /// Evolving-Guide: bi-4 rings, fair at extraordinary points
+    Eg,
+}
+
+impl From<Scheme> for SchemeKind {
+    fn from(scheme: Scheme) -> Self {
+        match scheme {
+            Scheme::Cc => Self::CatmullClark,
+            Scheme::Eg => Self::EvolvingGuide,
+        }
+    }
+}
+
+/// The tables by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Rules {
+    /// As the paper prints them: five digits, valences 3 and 5 to 10
+    Published,
+    /// At full precision, valences 3 and 5 to 16
+    Generated,
+}
+
+impl From<Rules> for RuleSet {
+    fn from(rules: Rules) -> Self {
+        match rules {
+            Rules::Published => Self::Published,
+            Rules::Generated => Self::Generated,
+        }
+    }
+}
+
+/// The name of the tables on the command line and in files; `None` for a scheme without.
+pub fn rules_name(options: SurfaceOptions) -> Option<&'static str> {
+    match (options.scheme, options.rules) {
+        (SchemeKind::CatmullClark, _) => None,
+        (_, RuleSet::Published) => Some("published"),
+        (_, RuleSet::Generated) => Some("generated"),
+    }
+}
+
+/// Two numbers with `separator` between them, as in `1200x900` or `-30,20`.
+pub fn parse_pair<T: std::str::FromStr>(text: &str, separator: char) -> Result<[T; 2], String> {
+    let parts = text.split_once(separator).and_then(|(a, b)| Some([number(a)?, number(b)?]));
+    parts.ok_or_else(|| format!("two numbers with '{separator}' between them are needed"))
+}
+
+/// A point `x,y,z`.
+pub fn parse_point(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
+    let point = numbers.and_then(|n| <[f64; 3]>::try_from(n).ok());
+    point
+        .filter(|p| p.iter().all(|x| x.is_finite()))
+        .ok_or_else(|| "three numbers x,y,z are needed".to_owned())
+}
+
+/// A range of valences `a..b` (both included), or a single one.
+pub fn parse_valences(text: &str) -> Result<RangeInclusive<usize>, String> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let last = last.strip_prefix('=').unwrap_or(last);
+    let range = number(first).zip(number(last)).map(|(a, b): (usize, usize)| a..=b);
+    range
+        .filter(|range| !range.is_empty())
+        .ok_or_else(|| "a valence or an inclusive range such as 3..10 is needed".to_owned())
+}
+
+fn number<T: std::str::FromStr>(text: &str) -> Option<T> {
+    text.trim().parse().ok()
+}

@@ -1,0 +1,155 @@
+//! `evenlight patches`: the surface as Bernstein-Bezier patches.
+
+use std::io::{self, Write};
+
+use clap::{Args, ValueEnum};
+use evenlight::Surface;
+use evenlight::io::bv;
+use evenlight::surface::{PlacedPatch, Role};
+use serde::{Serialize, Serializer};
+
+use crate::error::Failure;
+use crate::input;
+use crate::options::{SurfaceArgs, rules_name};
+use crate::output::Target;
+use crate::progress::Progress;
+
+/// Arguments of `evenlight patches`.
+#[derive(Args, Debug)]
+pub struct PatchesArgs {
+    #[command(flatten)]
+    surface: SurfaceArgs,
+
+    /// The file to write, .bv (BezierView, type 5) or .json; `-` for stdout
+    #[arg(short, long, value_name = "FILE")]
+    output: Target,
+
+    /// Format, if the file's extension does not tell
+    #[arg(long, value_enum)]
+    format: Option<PatchFormat>,
+
+    /// Number of rings around every extraordinary point; ring k reaches to 2^-k of a sector
+    #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=48))]
+    rings: u8,
+}
+
+/// Files that hold patches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PatchFormat {
+    /// BezierView: one group per role, patches of type 5
+    Bv,
+    /// JSON, one object per patch
+    Json,
+}
+
+/// Runs `evenlight patches`.
+pub fn run(args: &PatchesArgs, quiet: bool) -> Result<(), Failure> {
+    let format = args.output.format(args.format)?;
+    let progress = Progress::new(2, quiet);
+    progress.stage("Building the surface");
+    let surface = input::read_surface(&args.surface)?;
+    progress.step();
+    progress.stage("Writing patches");
+    write(&surface, args.rings.into(), format, &args.output)
+}
+
+/// Writes all regular patches and `rings` rings of `surface`.
+pub fn write(
+    surface: &Surface,
+    rings: usize,
+    format: PatchFormat,
+    target: &Target,
+) -> Result<(), Failure> {
+    target.write(|mut out| match format {
+        PatchFormat::Bv => bv::write(surface.patches(rings), &mut out),
+        PatchFormat::Json => write_json(surface, rings, out),
+    })
+}
+
+fn write_json(surface: &Surface, rings: usize, out: &mut dyn Write) -> io::Result<()> {
+    let options = surface.options();
+    let document = Document {
+        scheme: options.scheme.name(),
+        rules: rules_name(options),
+        rings,
+        patches: AllPatches { surface, rings },
+    };
+    serde_json::to_writer(&mut *out, &document)?;
+    out.write_all(b"\n")
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    scheme: &'static str,
+    /// `null` for schemes without tables.
+    rules: Option<&'static str>,
+    rings: usize,
+    patches: AllPatches<'a>,
+}
+
+/// The patches, made one by one while they are written: there can be millions.
+struct AllPatches<'a> {
+    surface: &'a Surface,
+    rings: usize,
+}
+
+impl Serialize for AllPatches<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let patches = self.surface.patches(self.rings);
+        serializer.collect_seq(patches.map(|patch| Record::new(self.surface, patch)))
+    }
+}
+
+/// One patch in the file.
+#[derive(Serialize)]
+struct Record {
+    role: String,
+    face: u32,
+    /// The corner of the face, if that is an n-gon.
+    corner: Option<usize>,
+    /// The extraordinary vertex; `null` for regular patches and around the centre of an n-gon.
+    vertex: Option<u32>,
+    /// The n-gon around whose centre the patch lies.
+    centre_of: Option<u32>,
+    sector: Option<usize>,
+    ring: Option<usize>,
+    /// The part of the face's unit square: `[[u0, u1], [v0, v1]]`.
+    domain: [[f64; 2]; 2],
+    degree: [usize; 2],
+    /// `(du + 1) (dv + 1)` points, v index fastest.
+    coefficients: Vec<[f64; 3]>,
+}
+
+impl Record {
+    fn new(surface: &Surface, placed: PlacedPatch) -> Self {
+        let (face, corner) = surface.face_of(placed.quad);
+        let is_quad = surface.cage().topology().faces().corners(face).len() == 4;
+        let center = placed.point.map(|i| &surface.extraordinary_points()[i]);
+        Self {
+            role: role_name(placed.role),
+            face: face.0,
+            corner: (!is_quad).then_some(corner),
+            vertex: center.and_then(|p| p.vertex).map(|v| v.0),
+            centre_of: center.and_then(|p| p.face).map(|f| f.0),
+            sector: placed.sector,
+            ring: ring(placed.role),
+            domain: placed.domain,
+            degree: placed.patch.degree(),
+            coefficients: placed.patch.coefs().to_vec(),
+        }
+    }
+}
+
+fn role_name(role: Role) -> String {
+    match role {
+        Role::Regular => "regular".to_owned(),
+        Role::Ring(k) => format!("ring-{k}"),
+    }
+}
+
+fn ring(role: Role) -> Option<usize> {
+    match role {
+        Role::Regular => None,
+        Role::Ring(k) => Some(k),
+    }
+}

@@ -1,0 +1,137 @@
+//! `evenlight spectrum`: eigenvalues of the subdivision rules per valence.
+
+use std::ops::RangeInclusive;
+
+use clap::Args;
+use evenlight::analyse::spectrum::{Spectrum, spectrum};
+use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
+use serde::Serialize;
+
+use crate::error::Failure;
+use crate::options::{RulesArg, Scheme, parse_valences, rules_name};
+use crate::output::Target;
+use crate::progress::Progress;
+use crate::table::{Table, short};
+
+/// Arguments of `evenlight spectrum`.
+#[derive(Args, Debug)]
+pub struct SpectrumArgs {
+    /// Subdivision scheme
+    #[arg(long, value_enum, default_value_t = Scheme::Eg)]
+    scheme: Scheme,
+
+    #[command(flatten)]
+    rules: RulesArg,
+
+    /// Valences: one, or a range that includes both ends and skips the regular valence 4
+    #[arg(long, value_name = "N|A..B", default_value = "3..10", value_parser = parse_valences)]
+    valence: RangeInclusive<usize>,
+
+    /// JSON instead of a table, with all eigenvalues
+    #[arg(long)]
+    json: bool,
+
+    /// The file to write; `-` for stdout
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: Target,
+}
+
+/// Runs `evenlight spectrum`.
+pub fn run(args: &SpectrumArgs, quiet: bool) -> Result<(), Failure> {
+    let options = SurfaceOptions { scheme: args.scheme.into(), rules: args.rules.rules.into() };
+    let spectra = spectra(options, &args.valence, quiet)?;
+    if args.json {
+        args.output.write_json(&Document::new(options, &spectra))
+    } else {
+        args.output.write(|out| write!(out, "{}", table(&spectra)))
+    }
+}
+
+/// The spectra at `valences`; a range leaves out the regular valence 4.
+///
+/// # Errors
+///
+/// Wrong usage if there are no rules for one of them.
+pub fn spectra(
+    options: SurfaceOptions,
+    valences: &RangeInclusive<usize>,
+    quiet: bool,
+) -> Result<Vec<Spectrum>, Failure> {
+    let SurfaceOptions { scheme, rules } = options;
+    let is_range = valences.start() < valences.end();
+    let valences: Vec<usize> = valences.clone().filter(|&n| !(is_range && n == 4)).collect();
+    if let Some(&n) = valences.iter().find(|&&n| !scheme.has_rules(rules, n)) {
+        return Err(Failure::Usage(no_rules(scheme, rules, n)));
+    }
+    let progress = Progress::new(valences.len(), quiet);
+    progress.stage("Computing eigenvalues");
+    let spectra = valences.into_iter().filter_map(|n| spectrum(scheme, rules, n));
+    Ok(spectra.inspect(|_| progress.step()).collect())
+}
+
+fn no_rules(scheme: SchemeKind, rules: RuleSet, valence: usize) -> String {
+    let kind = rules_name(SurfaceOptions { scheme, rules }).map(|r| r.to_owned() + " ");
+    format!(
+        "the scheme {} has {}rules for the valences {}, not for {valence}",
+        scheme.name(),
+        kind.unwrap_or_default(),
+        scheme.valences(rules)
+    )
+}
+
+/// The spectra for people.
+pub fn table(spectra: &[Spectrum]) -> Table {
+    let header =
+        ["valence", "lambda", "mu/lambda^2", "min Jacobian", "largest eigenvalues by modulus"];
+    let mut table = Table::new(&header);
+    for s in spectra {
+        let largest: Vec<String> = s.moduli.iter().take(8).map(|m| format!("{m:.4}")).collect();
+        table.push([
+            s.valence.to_string(),
+            format!("{:.6}", s.lambda),
+            format!("{:.6}", s.mu_over_lambda2),
+            short(s.jacobian_min),
+            largest.join(" "),
+        ]);
+    }
+    table
+}
+
+/// The JSON document.
+#[derive(Serialize)]
+pub struct Document<'a> {
+    scheme: &'static str,
+    /// `null` for schemes without tables.
+    rules: Option<&'static str>,
+    spectra: Vec<Record<'a>>,
+}
+
+/// One valence.
+#[derive(Serialize)]
+struct Record<'a> {
+    valence: usize,
+    /// The moduli, falling.
+    eigenvalues: &'a [f64],
+    lambda: f64,
+    mu_over_lambda2: f64,
+    /// Relative to the largest Jacobian.
+    jacobian_min: f64,
+}
+
+impl<'a> Document<'a> {
+    /// The document on `spectra`, which were computed with `options`.
+    pub fn new(options: SurfaceOptions, spectra: &'a [Spectrum]) -> Self {
+        let record = |s: &'a Spectrum| Record {
+            valence: s.valence,
+            eigenvalues: &s.moduli,
+            lambda: s.lambda,
+            mu_over_lambda2: s.mu_over_lambda2,
+            jacobian_min: s.jacobian_min,
+        };
+        Self {
+            scheme: options.scheme.name(),
+            rules: rules_name(options),
+            spectra: spectra.iter().map(record).collect(),
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! `evenlight mesh`.
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use common::{CUBE, PILLOW, arg, cage, run, run_on, stdout};
+
+fn obj(args: &[&str]) -> String {
+    let pillow = cage(PILLOW);
+    let fixed = ["mesh", arg(&pillow), "-o", "-", "--format", "obj"];
+    stdout(&run(&[&fixed[..], args].concat()))
+}
+
+fn triangles(obj: &str) -> Vec<[u32; 3]> {
+    let faces = obj.lines().filter_map(|line| line.strip_prefix("f "));
+    let corner = |c: &str| c.split('/').next().unwrap().parse().unwrap();
+    faces.map(|f| f.split(' ').map(corner).collect::<Vec<_>>().try_into().unwrap()).collect()
+}
+
+#[test]
+fn a_closed_cage_gives_a_closed_mesh() {
+    for scheme in ["cc", "eg"] {
+        let triangles = triangles(&obj(&["--rate", "3", "--scheme", scheme]));
+        assert_eq!(triangles.len(), 150 * 2 * 3 * 3);
+        let mut edges: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+        for [a, b, c] in triangles {
+            for edge in [(a, b), (b, c), (c, a)] {
+                *edges.entry(edge).or_default() += 1;
+            }
+        }
+        // Every directed edge once, and its opposite once: watertight and oriented.
+        assert!(edges.iter().all(|(&(a, b), &n)| n == 1 && edges.get(&(b, a)) == Some(&1)));
+    }
+}
+
+#[test]
+fn the_default_rate_is_8() {
+    assert_eq!(obj(&[]), obj(&["--rate", "8"]));
+}
+
+#[test]
+fn normals_have_length_one() {
+    let text = obj(&["--rate", "2"]);
+    let normals: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("vn ")).collect();
+    assert_eq!(normals.len(), text.lines().filter(|line| line.starts_with("v ")).count());
+    for n in normals {
+        let length: f64 = n.split(' ').map(|x| x.parse::<f64>().unwrap().powi(2)).sum();
+        assert!((length - 1.0).abs() < 1e-14, "{n}");
+    }
+}
+
+#[test]
+fn the_extension_chooses_the_format() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, beginning) in [("a.obj", "v "), ("a.PLY", "ply\n"), ("a.stl", "Binary STL")] {
+        let file = folder.path().join(name);
+        stdout(&run_on(CUBE, &["mesh", "-", "-o", arg(&file)]));
+        assert!(fs::read(&file).unwrap().starts_with(beginning.as_bytes()), "{name}");
+    }
+}
+
+#[test]
+fn ply_has_curvature_properties() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.ply");
+    stdout(&run_on(CUBE, &["mesh", "-", "-o", arg(&file)]));
+    let bytes = fs::read(&file).unwrap();
+    let header = String::from_utf8_lossy(&bytes[..1000]).into_owned();
+    assert!(header.contains("property float gauss_curvature"), "{header}");
+    assert!(header.contains("property float mean_curvature"));
+}

@@ -1,0 +1,75 @@
+//! `evenlight spectrum`.
+
+mod common;
+
+use common::{code, json, run, stderr, stdout};
+use serde_json::{Value, json};
+
+fn spectra(args: &[&str]) -> Vec<Value> {
+    let document = json(&run(&[&["spectrum", "--json"], args].concat()));
+    document["spectra"].as_array().unwrap().clone()
+}
+
+#[test]
+fn json_has_the_promised_keys() {
+    let document = json(&run(&["spectrum", "--json", "--rules", "published"]));
+    assert_eq!((&document["scheme"], &document["rules"]), (&json!("eg"), &json!("published")));
+    for spectrum in document["spectra"].as_array().unwrap() {
+        let number = |key: &str| spectrum[key].as_f64().unwrap();
+        let moduli = spectrum["eigenvalues"].as_array().unwrap();
+        let moduli: Vec<f64> = moduli.iter().map(|m| m.as_f64().unwrap()).collect();
+        assert!(moduli.is_sorted_by(|a, b| a >= b) && (moduli[0] - 1.0).abs() < 1e-12);
+        assert!((moduli[1] - number("lambda")).abs() < 1e-6);
+        assert!((moduli[3] / number("lambda").powi(2) - number("mu_over_lambda2")).abs() < 1e-6);
+        assert!((0.0..1.0).contains(&number("jacobian_min")));
+    }
+}
+
+#[test]
+fn ranges_include_both_ends_and_skip_4() {
+    let valences =
+        |range| spectra(&["--valence", range]).iter().map(|s| s["valence"].clone()).collect();
+    let default: Vec<Value> = valences("3..10");
+    assert_eq!(default, [3, 5, 6, 7, 8, 9, 10]);
+    assert_eq!(default, spectra(&[]).iter().map(|s| s["valence"].clone()).collect::<Vec<_>>());
+    let single: Vec<Value> = valences("5");
+    assert_eq!(single, [5]);
+}
+
+#[test]
+fn catmull_clark_has_the_eigenvalues_of_the_books() {
+    // [PR08]: lambda = (c + 5 + sqrt((c + 1) (c + 9))) / 16 with c = cos(2 pi / n).
+    for spectrum in spectra(&["--scheme", "cc", "--valence", "3..10"]) {
+        let n = spectrum["valence"].as_f64().unwrap();
+        let c = (std::f64::consts::TAU / n).cos();
+        let lambda = (c + 5.0 + ((c + 1.0) * (c + 9.0)).sqrt()) / 16.0;
+        assert!((spectrum["lambda"].as_f64().unwrap() - lambda).abs() < 1e-12);
+    }
+    let document = json(&run(&["spectrum", "--scheme", "cc", "--json"]));
+    assert!(document["rules"].is_null());
+}
+
+#[test]
+fn valence_4_is_regular() {
+    let regular = &spectra(&["--scheme", "cc", "--valence", "4"])[0];
+    assert!((regular["lambda"].as_f64().unwrap() - 0.5).abs() < 1e-12);
+    assert!((regular["mu_over_lambda2"].as_f64().unwrap() - 1.0).abs() < 1e-12);
+    let output = run(&["spectrum", "--valence", "4"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("rules for the valences 3 and 5 to 16, not for 4"));
+}
+
+#[test]
+fn valences_without_rules_are_wrong_usage() {
+    let output = run(&["spectrum", "--rules", "published", "--valence", "3..11"]);
+    assert_eq!((code(&output), output.stdout.len()), (2, 0));
+    assert!(stderr(&output).contains("eg has published rules for the valences 3 and 5 to 10"));
+}
+
+#[test]
+fn the_table_has_a_line_per_valence() {
+    let text = stdout(&run(&["spectrum", "--valence", "3..6"]));
+    assert_eq!(text.lines().count(), 1 + 3);
+    assert!(text.lines().next().unwrap().contains("mu/lambda^2"));
+    assert!(text.lines().nth(1).unwrap().trim_start().starts_with("3  0.410097"));
+}
