@@ -26,7 +26,7 @@ pub struct MeshArgs {
     #[arg(long, value_enum)]
     format: Option<MeshFormat>,
 
-    /// Segments per edge of the cage
+    /// Segments per edge of the cage; made even if the cage has faces that are no quads
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1024))]
     rate: u16,
 }

@@ -1,5 +1,7 @@
 //! `evenlight analyze`.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
 mod common;
 
 use common::{CONE, CUBE, PILLOW, TETRAHEDRON, arg, cage, code, json, run, run_on, stderr, stdout};

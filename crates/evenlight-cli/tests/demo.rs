@@ -1,5 +1,7 @@
 //! `evenlight demo`.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
 mod common;
 
 use std::collections::BTreeMap;

@@ -1,5 +1,7 @@
 //! `evenlight eval`.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
 mod common;
 
 use common::{CONE, CUBE, PILLOW, TETRAHEDRON, arg, cage, code, run_on, stderr, stdout};

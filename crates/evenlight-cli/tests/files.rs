@@ -1,5 +1,7 @@
 //! Output files are written whole or not at all; `-` is stdin and stdout.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
 mod common;
 
 use std::fs;

@@ -1,5 +1,7 @@
 //! `evenlight spectrum`.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
 mod common;
 
 use common::{code, json, run, stderr, stdout};

@@ -1,5 +1,7 @@
 //! Help, exit codes and wrong usage.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
 mod common;
 
 use common::{CUBE, PILLOW, arg, cage, code, run, run_on, stderr, stdout};
