@@ -9,12 +9,12 @@ use evenlight::analyse::curvature::{
     CurvatureReport, PointReport, Range, RingCurvature, curvature_report,
 };
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{Cage, Surface, SurfaceOptions};
+use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::Failure;
 use crate::input::{self, Source};
-use crate::options::{RulesArg, Scheme, rules_name};
+use crate::options::{RulesArg, rules_name, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
 use crate::table::{Table, short};
@@ -26,8 +26,8 @@ pub struct AnalyzeArgs {
     cage: Source,
 
     /// Schemes to compare
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Scheme::Cc, Scheme::Eg])]
-    schemes: Vec<Scheme>,
+    #[arg(long, value_delimiter = ',', default_value = "cc,eg", value_parser = scheme_parser())]
+    schemes: Vec<SchemeKind>,
 
     #[command(flatten)]
     rules: RulesArg,
@@ -59,7 +59,7 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(args.schemes.len(), quiet);
     let mut analyses = Vec::new();
     for &scheme in &args.schemes {
-        let options = SurfaceOptions { scheme: scheme.into(), rules: args.rules.rules.into() };
+        let options = SurfaceOptions { scheme, rules: args.rules.rules.into() };
         progress.stage(format!("Analysing {}", options.scheme.name()));
         analyses.push(Analysis::of(&cage, options, args.rings.into(), &args.cage)?);
         progress.step();

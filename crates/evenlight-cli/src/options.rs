@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
 
@@ -26,9 +27,9 @@ pub struct SurfaceArgs {
     /// The cage: an OBJ file with quads and n-gons, counter-clockwise; `-` for stdin
     pub cage: Source,
 
-    /// Subdivision scheme
-    #[arg(long, value_enum, default_value_t = Scheme::Eg)]
-    pub scheme: Scheme,
+    /// Subdivision scheme: Catmull-Clark (`cc`), Evolving-Guide (`eg`)
+    #[arg(long, default_value = "eg", value_parser = scheme_parser())]
+    pub scheme: SchemeKind,
 
     #[command(flatten)]
     pub rules: RulesArg,
@@ -37,7 +38,7 @@ pub struct SurfaceArgs {
 /// Which tables of weights the scheme takes.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct RulesArg {
-    /// Tables of the scheme `eg` (`cc` has none)
+    /// Tables of weights of the scheme (`cc` has none)
     #[arg(long, value_enum, default_value_t = Rules::Generated)]
     pub rules: Rules,
 }
@@ -45,26 +46,17 @@ pub struct RulesArg {
 impl SurfaceArgs {
     /// Scheme and rules in the library's terms.
     pub fn options(&self) -> SurfaceOptions {
-        SurfaceOptions { scheme: self.scheme.into(), rules: self.rules.rules.into() }
+        SurfaceOptions { scheme: self.scheme, rules: self.rules.rules.into() }
     }
 }
 
-/// The subdivision schemes by their short names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Scheme {
-    /// Catmull-Clark: bi-3 rings
-    Cc,
-    /// Evolving-Guide: bi-4 rings, fair at extraordinary points
-    Eg,
-}
-
-impl From<Scheme> for SchemeKind {
-    fn from(scheme: Scheme) -> Self {
-        match scheme {
-            Scheme::Cc => Self::CatmullClark,
-            Scheme::Eg => Self::EvolvingGuide,
-        }
-    }
+/// Reads the short name of a scheme.
+pub fn scheme_parser() -> impl TypedValueParser<Value = SchemeKind> {
+    let parser = PossibleValuesParser::new(SchemeKind::ALL.map(SchemeKind::name));
+    parser.map(|name| {
+        let scheme = SchemeKind::ALL.into_iter().find(|scheme| scheme.name() == name);
+        scheme.expect("the name is one of the possible values")
+    })
 }
 
 /// The tables by their names.

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use evenlight::picture::{self, MAX_SIDE, Picture, RenderOptions, View};
-use evenlight::{Surface, SurfaceOptions, VertexId};
+use evenlight::{SchemeKind, Surface, SurfaceOptions, VertexId};
 
 use crate::error::Failure;
 use crate::input;
-use crate::options::{Scheme, SurfaceArgs, parse_pair, parse_point};
+use crate::options::{SurfaceArgs, parse_pair, parse_point, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
 
@@ -21,12 +21,12 @@ pub struct RenderArgs {
     /// Schemes to show side by side, with one camera and one range of colours
     #[arg(
         long,
-        value_enum,
         value_delimiter = ',',
         value_name = "SCHEMES",
+        value_parser = scheme_parser(),
         conflicts_with = "scheme"
     )]
-    compare: Vec<Scheme>,
+    compare: Vec<SchemeKind>,
 
     /// The file to write, .png; `-` for stdout
     #[arg(short, long, value_name = "FILE")]
@@ -176,11 +176,11 @@ fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
     let SurfaceArgs { cage: source, .. } = &args.surface;
     let cage = input::read_cage(source)?;
     let options = args.surface.options();
-    let schemes = args.compare.iter().map(|&scheme| scheme.into());
-    let schemes = if args.compare.is_empty() { vec![options.scheme] } else { schemes.collect() };
+    let single = [options.scheme];
+    let schemes = if args.compare.is_empty() { &single[..] } else { &args.compare };
     let build =
-        |scheme| input::build(Arc::clone(&cage), SurfaceOptions { scheme, ..options }, source);
-    let surfaces = schemes.into_iter().map(build).collect::<Result<Vec<_>, _>>()?;
+        |&scheme| input::build(Arc::clone(&cage), SurfaceOptions { scheme, ..options }, source);
+    let surfaces = schemes.iter().map(build).collect::<Result<Vec<_>, _>>()?;
     input::report_omitted(&surfaces[0], source)?;
     Ok(surfaces)
 }

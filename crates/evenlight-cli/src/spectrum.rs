@@ -8,7 +8,7 @@ use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::Failure;
-use crate::options::{RulesArg, Scheme, parse_valences, rules_name};
+use crate::options::{RulesArg, parse_valences, rules_name, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
 use crate::table::{Table, short};
@@ -16,9 +16,9 @@ use crate::table::{Table, short};
 /// Arguments of `evenlight spectrum`.
 #[derive(Args, Debug)]
 pub struct SpectrumArgs {
-    /// Subdivision scheme
-    #[arg(long, value_enum, default_value_t = Scheme::Eg)]
-    scheme: Scheme,
+    /// Subdivision scheme: Catmull-Clark (`cc`), Evolving-Guide (`eg`)
+    #[arg(long, default_value = "eg", value_parser = scheme_parser())]
+    scheme: SchemeKind,
 
     #[command(flatten)]
     rules: RulesArg,
@@ -38,7 +38,7 @@ pub struct SpectrumArgs {
 
 /// Runs `evenlight spectrum`.
 pub fn run(args: &SpectrumArgs, quiet: bool) -> Result<(), Failure> {
-    let options = SurfaceOptions { scheme: args.scheme.into(), rules: args.rules.rules.into() };
+    let options = SurfaceOptions { scheme: args.scheme, rules: args.rules.rules.into() };
     let spectra = spectra(options, &args.valence, quiet)?;
     if args.json {
         args.output.write_json(&Document::new(options, &spectra))
