@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{self, Write};
 
 use clap::Args;
-use evenlight_guide::emit::{EG_VALENCES, EgTable, eg_table};
+use evenlight_guide::emit::{TableFile, VALENCES, table_files};
 
 /// Derive the tables of refinement weights and write them.
 #[derive(Args)]
@@ -17,24 +17,26 @@ pub struct Arguments {
 
 const FOLDER: &str = "crates/evenlight/src/scheme/tables";
 
-/// Writes or checks the table of every valence, with a line for each.
+/// Writes or checks the tables of every valence, with a line for each.
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    let mut stale = 0;
-    for valence in EG_VALENCES {
-        let table = eg_table(valence);
-        table.check().map_err(|defect| format!("valence {valence}: {defect}"))?;
-        let fresh = is_on_disk(&table);
-        if !arguments.check && !fresh {
-            write(&table)?;
+    let (mut stale, mut count) = (0, 0);
+    for valence in VALENCES {
+        let tables = table_files(valence);
+        for table in tables.map_err(|defect| format!("valence {valence}: {defect}"))? {
+            let fresh = is_on_disk(&table);
+            if !arguments.check && !fresh {
+                write(&table)?;
+            }
+            count += 1;
+            stale += usize::from(!fresh);
+            writeln!(io::stdout(), "{}", report(&table, fresh, arguments.check))?;
         }
-        stale += usize::from(!fresh);
-        writeln!(io::stdout(), "{}", report(&table, fresh, arguments.check))?;
     }
     if arguments.check && stale > 0 {
         return Err(format!(
-            "{stale} of {} tables in {FOLDER} differ from the derivation in crates/evenlight-guide.\n\
-             Tables are never edited by hand: run `cargo xtask tables` and commit what it writes.",
-            EG_VALENCES.len()
+            "{stale} of {count} tables in {FOLDER} differ from the derivation in \
+             crates/evenlight-guide.\n\
+             Tables are never edited by hand: run `cargo xtask tables` and commit what it writes."
         )
         .into());
     }
@@ -42,23 +44,23 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 }
 
 /// Whether the file of the table exists and holds exactly its source.
-fn is_on_disk(table: &EgTable) -> bool {
-    let file = crate::workspace(FOLDER).join(table.file_name());
-    fs::read(file).is_ok_and(|bytes| bytes == table.source().as_bytes())
+fn is_on_disk(table: &TableFile) -> bool {
+    let file = crate::workspace(FOLDER).join(&table.name);
+    fs::read(file).is_ok_and(|bytes| bytes == table.source.as_bytes())
 }
 
-fn write(table: &EgTable) -> Result<(), Box<dyn Error>> {
-    let file = crate::workspace(FOLDER).join(table.file_name());
-    fs::write(&file, table.source())
+fn write(table: &TableFile) -> Result<(), Box<dyn Error>> {
+    let file = crate::workspace(FOLDER).join(&table.name);
+    fs::write(&file, &table.source)
         .map_err(|error| format!("cannot write {}: {error}", file.display()).into())
 }
 
-fn report(table: &EgTable, fresh: bool, check: bool) -> String {
+fn report(table: &TableFile, fresh: bool, check: bool) -> String {
     let state = match (fresh, check) {
         (true, _) => "up to date",
         (false, true) => "DIFFERS",
         (false, false) => "written",
     };
-    let (file, rows) = (table.file_name(), table.num_rows());
-    format!("{file}: {rows:2} rows, symmetric, sums to 1: {state}")
+    let TableFile { name, source } = table;
+    format!("{name:10} {:6} bytes, symmetric, sums to 1: {state}", source.len())
 }

@@ -1,9 +1,9 @@
 //! The derivation of Evenlight's refinement rules.
 //!
-//! Evolving-Guide subdivision, EG [KP23-EG], refines the d-net around an extraordinary point by
-//! tabulated weights. This crate computes the weights of any valence from their definition and
-//! writes the tables that the library `evenlight` reads. It is never shipped; `cargo xtask tables`
-//! runs it.
+//! Evolving-Guide subdivision, EG [KP23-EG], and Quadratic-Attraction subdivision, QAS [KP23-QAS],
+//! refine the d-net around an extraordinary point by tabulated weights. This crate computes the
+//! weights of any valence from their definition and writes the tables that the library `evenlight`
+//! reads. It is never shipped; `cargo xtask tables` runs it.
 //!
 //! # The derivation in one page
 //!
@@ -15,8 +15,8 @@
 //!
 //! ```text
 //!    d-net --> border of the sectors --> guide g, bi-5 --> g sampled at scale lambda --> new d-net
-//!      '------> q, by least F_4(g) ---------^                    ^
-//!                                     characteristic map chi ----'
+//!      '------> q, by least F_k(g) ---------^                    ^
+//!               (EG: always; QAS: once)     characteristic map chi
 //! ```
 //!
 //! 1. **Where.** chi is the characteristic map of Catmull-Clark subdivision, lambda its eigenvalue;
@@ -27,18 +27,22 @@
 //!    2-jets of g(chi^T) at the three corners of the border, averaged where they overlap, agree
 //!    with the net ([`guide`], [`jet`]).
 //! 3. **Next.** The same jets of g(lambda chi^T), turned into spline nodes, are the new net; nodes
-//!    on a line are averaged over both sides ([`rules`]).
-//! 4. **The quadratic.** q_1 = p; the other five coefficients minimise F_4, the integral of
-//!    the squared fourth derivatives, over the sectors of the guide. Everything is linear, so q
-//!    is a fixed combination of d and p, and substituting it leaves rules in d and p alone
-//!    ([`rules::evolving_guide`]).
+//!    on a line are averaged over both sides. The weights are kappa on the nodes near by and tau
+//!    on q ([`rules`]).
+//! 4. **The quadratic.** q_1 = p; the other five coefficients minimise F_k, the integral of the
+//!    squared k-th derivatives, over the sectors of the guide ([`rules::Step::quadratic`]).
+//!    Everything is linear, so q is a fixed combination of d and p.
+//!    - QAS, k = 5: q is determined from the first net, by weights mu, and then only restricted to
+//!      smaller domains ([`quadratic_attraction`]).
+//!    - EG, k = 4: q is determined anew in each step; substituting it leaves rules in d and p alone
+//!      ([`evolving_guide`]).
 //! 5. **The table.** Averaged with their mirror images and rounded to 18 digits ([`emit`]).
 //!
 //! All of it is computed with some 31 digits ([`real`], [`linear`]). By the symmetries and the
-//! partition of unity the weights are exact to 1e-29 at every valence up to 16.
+//! partition of unity the weights are exact to 1e-28 at every valence up to 16.
 //!
 //! ```
-//! use evenlight_guide::rules::{EG_ORDER, evolving_guide};
+//! use evenlight_guide::evolving_guide::{EG_ORDER, evolving_guide};
 //!
 //! // The weight of d_22 of the own sector in the rule of d_11, valence 5: printed as .61638.
 //! let rules = evolving_guide(5, EG_ORDER);
@@ -51,19 +55,21 @@
 //! - \[KP23-EG\] K. Karciauskas, J. Peters: Evolving Guide Subdivision. Computer Graphics Forum 42,
 //!   2023. The scheme; its tables, truncated to 5 digits, for valences up to 10.
 //! - \[KP23-QAS\] K. Karciauskas, J. Peters: Quadratic-Attraction Subdivision. Computer Graphics
-//!   Forum 42, 2023. The step (d, q) -> d and the functional F_k.
+//!   Forum 42, 2023. The step (d, q) -> d, the functional F_k and the rules of q; tables likewise.
 //!
 //! The papers leave parts of the guide to figures and to earlier work. The construction here is
-//! complete, and is confirmed by the printed tables: all their legible numbers come out.
+//! complete, and is confirmed by the printed tables: all the numbers that we could read come out.
 
 pub mod border;
 pub mod characteristic;
 pub mod emit;
+pub mod evolving_guide;
 pub mod guide;
 pub mod jet;
 pub mod linear;
 pub mod nets;
 pub mod quadratic;
+pub mod quadratic_attraction;
 pub mod real;
 pub mod rules;
 pub mod spline;

@@ -38,7 +38,7 @@ impl DNet {
     ///
     /// If (i, j) is no place of an L-net: above 4, or both above 2.
     pub fn index(self, sector: isize, i: usize, j: usize) -> usize {
-        let (turn, i, j) = owner(i, j);
+        let (turn, i, j) = home(i, j);
         let sector = (sector + turn).rem_euclid(self.valence as isize) as usize;
         NODES_PER_SECTOR * sector + 4 * j + i
     }
@@ -49,8 +49,38 @@ pub fn own_nodes() -> impl Iterator<Item = (usize, usize)> + Clone {
     (0..3).flat_map(|j| (0..4).map(move |i| (i, j)))
 }
 
-/// Where the node at a place of an L-net is at home: (sectors to go, i, j) there.
-fn owner(i: usize, j: usize) -> (isize, usize, usize) {
+/// A mirror that maps the d-net to itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mirror {
+    /// The mirror in line s: sectors s and s+1 change places.
+    Line,
+    /// The mirror in the diagonal of sector s: lines s-1 and s change places.
+    Diagonal,
+}
+
+impl Mirror {
+    /// The image of the own node (i, j) of sector s + r, as (r, i, j) of the same kind; its own
+    /// inverse. `r` may be any integer.
+    ///
+    /// ```text
+    ///   Line      (r, i, j) -> (1 - r, j, i)     (r, 3, j) -> (-r, 3, j)        (i below 3)
+    ///   Diagonal  (r, i, j) -> (-r, j, i)        (r, 3, j) -> (-1 - r, 3, j)
+    /// ```
+    pub fn image(self, (r, i, j): (isize, usize, usize)) -> (isize, usize, usize) {
+        let on_line = match self {
+            Self::Line => -r,
+            Self::Diagonal => -1 - r,
+        };
+        if i == 3 { (on_line, i, j) } else { (on_line + 1, j, i) }
+    }
+}
+
+/// Where the node at the place (i, j) of an L-net is at home: (sectors to go, i, j) there.
+///
+/// # Panics
+///
+/// If (i, j) is no place of an L-net: above 4, or both above 2.
+pub fn home(i: usize, j: usize) -> (isize, usize, usize) {
     match (i, j) {
         (0..=3, 0..=2) => (0, i, j),
         (4, 0..=2) => (1, j, 2),
@@ -78,6 +108,20 @@ mod tests {
             assert_eq!(net.index(0, 4, j), net.index(1, j, 2)); // beyond line 0, seen from behind
             assert_eq!(net.index(0, 2, j), net.index(1, j, 4));
             assert_eq!(net.index(0, 3, j), net.index(1, j, 3));
+        }
+    }
+
+    #[test]
+    fn mirrors_exchange_the_places_of_l_nets() {
+        let net = DNet { valence: 7 };
+        let number = |(r, i, j)| net.index(r, i, j);
+        for (r, (i, j)) in (-3..=3).flat_map(|r| own_nodes().map(move |node| (r, node))) {
+            for mirror in [Mirror::Line, Mirror::Diagonal] {
+                assert_eq!(mirror.image(mirror.image((r, i, j))), (r, i, j));
+            }
+            // Place (i, j) of sector r <-> place (j, i) of sector 1 - r, or of sector -r.
+            assert_eq!(number(Mirror::Line.image((r, i, j))), net.index(1 - r, j, i));
+            assert_eq!(number(Mirror::Diagonal.image((r, i, j))), net.index(-r, j, i));
         }
     }
 }

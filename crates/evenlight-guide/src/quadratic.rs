@@ -19,6 +19,10 @@ use crate::real::Real;
 /// The indices (a, b) of q_1..q_6.
 pub const Q_POINTS: [(usize, usize); 6] = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (0, 2)];
 
+/// The mirror image of each of q_1..q_6 in the diagonal of the sector, as a number from 0: q_2 and
+/// q_4 change places, and q_3 and q_6.
+pub const Q_MIRRORED: [usize; 6] = [0, 3, 5, 1, 4, 2];
+
 /// The matrix A of the passage to the next sector: q^(s+1) = A q^s, [KP23-QAS, eq. 1].
 ///
 /// Along line s nothing changes but the names, (q_2, q_3) := (q_4, q_6); the other rows express
@@ -85,6 +89,24 @@ fn bernstein_products(m: usize) -> Matrix {
 mod tests {
     use super::*;
     use crate::linear::largest;
+
+    #[test]
+    fn the_mirror_exchanges_the_two_indices() {
+        for (number, image) in Q_MIRRORED.into_iter().enumerate() {
+            let (a, b) = Q_POINTS[number];
+            assert_eq!(Q_POINTS[image], (b, a));
+        }
+    }
+
+    #[test]
+    fn a_turn_and_a_mirror_are_undone_by_themselves() {
+        // The mirror in line s maps sector s+1 to sector s: first turn, then exchange.
+        for n in 3..=16 {
+            let mirror_in_line = turn(n).select_rows(&Q_MIRRORED);
+            let twice = &mirror_in_line * &mirror_in_line;
+            assert!(largest(&(&twice - &Matrix::identity(6))) < 1e-28, "valence {n}");
+        }
+    }
 
     #[test]
     fn n_turns_are_the_identity() {

@@ -1,9 +1,10 @@
 //! The derived rules against the numbers of our double-precision prototype, `data/golden/eg`.
 
-use evenlight_guide::nets::{DNet, NODES_PER_SECTOR};
-use evenlight_guide::quadratic::turn;
+use evenlight_guide::evolving_guide::{EG_ORDER, evolving_guide};
+use evenlight_guide::nets::NODES_PER_SECTOR;
+use evenlight_guide::quadratic_attraction::{Q_RULES, QAS_ORDER, quadratic_attraction};
 use evenlight_guide::real::Real;
-use evenlight_guide::rules::{EG_ORDER, QAS_ORDER, RULES, StepRule, evolving_guide, step};
+use evenlight_guide::rules::{RULES, TURNS, step};
 use serde_json::Value;
 
 const VALENCES: [usize; 7] = [3, 5, 6, 7, 8, 9, 10];
@@ -54,50 +55,32 @@ fn evolving_guide_rules_with_both_functionals() {
 }
 
 #[test]
-fn local_weights_of_the_step() {
+fn quadratic_attraction_rules_of_the_nodes() {
     for n in VALENCES {
-        let (step, golden) = (step(n), golden(n));
-        for rule in RULES {
-            let derived = step.rule(rule.0, rule.1);
-            let mut expected = vec![0.0; NODES_PER_SECTOR * n];
-            for (r, row) in golden["QAS_K"][name(rule)].as_object().unwrap() {
-                let sector = r.parse().unwrap();
-                let first = DNet { valence: n }.index(sector, 0, 0);
-                for (k, weight) in numbers(row).into_iter().enumerate() {
-                    expected[first + k] += weight; // at n = 3 the sectors -1 and 2 are the same
-                }
+        let golden = golden(n);
+        for (rule, (h, k)) in quadratic_attraction(n, QAS_ORDER).nodes.iter().zip(RULES) {
+            for (row, r) in rule.kappa.iter().zip(TURNS) {
+                let expected = numbers(&golden["QAS_K"][name((h, k))][r.to_string()]);
+                assert_near(row, &expected, &format!("kappa, n = {n}, rule {h}{k}, r = {r}"));
             }
-            assert_near(&derived.on_net, &expected, &format!("K, n = {n}, {rule:?}"));
-            assert_quadratic_weights(&derived, rule, &golden["QAS_T"], n);
+            let expected = numbers(&golden["QAS_T"][name((h, k))]);
+            assert_near(&rule.tau, &expected, &format!("tau, n = {n}, rule {h}{k}"));
         }
     }
-}
-
-/// The tables list tau_2..tau_6 on q_2..q_6 of the own sector. For nodes on a line half of them,
-/// mirrored, count for the next sector [KP23-QAS, eq. 7], here turned back to sector 0.
-fn assert_quadratic_weights(derived: &StepRule, rule: (usize, usize), golden: &Value, n: usize) {
-    let tau: Vec<Real> = numbers(&golden[name(rule)]).into_iter().map(Real::from).collect();
-    let expected: Vec<f64> = if rule.0 < 3 {
-        tau.iter().map(|t| t.to_f64()).collect()
-    } else {
-        let mirrored = [2, 4, 0, 3, 1].map(|k| tau[k]); // on q_2..q_6 of the next sector
-        let turn = turn(n);
-        let next = |column: usize| -> Real {
-            (0..5).map(|row| mirrored[row] * turn[(row + 1, column)]).sum()
-        };
-        (0..5).map(|k| 0.5 * (tau[k] + next(k + 1)).to_f64()).collect()
-    };
-    assert_near(&derived.on_q[1..], &expected, &format!("T, n = {n}, {rule:?}"));
 }
 
 #[test]
 fn first_quadratic() {
     for n in VALENCES {
-        let (derived, golden) = (step(n).quadratic(QAS_ORDER), golden(n));
-        for row in 0..5 {
-            let expected = net_numbers(&golden["QAS_q_from_d_F5"][format!("q{}", row + 2)]);
-            let derived = &derived.row(row)[..NODES_PER_SECTOR * n];
-            assert_near(derived, &expected, &format!("q{}, n = {n}", row + 2));
+        let (derived, golden) = (step(n).quadratic(QAS_ORDER), &golden(n)["QAS_q_from_d_F5"]);
+        for m in 2..=6 {
+            let expected = net_numbers(&golden[format!("q{m}")]);
+            let derived = &derived.row(m - 1)[..NODES_PER_SECTOR * n];
+            assert_near(derived, &expected, &format!("q_{m}, n = {n}"));
+        }
+        for ((m, _), rule) in Q_RULES.iter().zip(quadratic_attraction(n, QAS_ORDER).q) {
+            let expected = net_numbers(&golden[format!("q{m}")]);
+            assert_near(&rule.on_net, &expected, &format!("mu of q_{m}, n = {n}"));
         }
     }
 }

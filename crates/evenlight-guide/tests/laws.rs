@@ -1,12 +1,14 @@
 //! Laws of the derived rules that hold whatever the numbers are.
 
 use evenlight_guide::border::{place_index, places};
+use evenlight_guide::evolving_guide::{EG_ORDER, NetRule, evolving_guide, symmetrised};
 use evenlight_guide::linear::Matrix;
 use evenlight_guide::nets::{DNet, own_nodes};
-use evenlight_guide::quadratic::{Q_POINTS, turn};
+use evenlight_guide::quadratic::{Q_POINTS, functional, turn};
+use evenlight_guide::quadratic_attraction::{Q_RULES, QAS_ORDER, quadratic_attraction};
 use evenlight_guide::real::Real;
 use evenlight_guide::rules::{
-    EG_ORDER, EgRule, QAS_ORDER, RULES, Step, evolving_guide, mirrored, step, symmetrised,
+    RULES, Step, StepRule, TURNS, mirror_of, step, symmetrised as symmetrised_step,
 };
 use evenlight_guide::spline::{refined, spline_to_bb};
 
@@ -16,35 +18,73 @@ fn scattered(index: usize) -> Real {
     Real::from((mixed >> 33) as i32 as f64 / (1u64 << 30) as f64 - 1.0)
 }
 
+fn scattered_net(valence: usize) -> Vec<Real> {
+    (0..DNet { valence }.num_nodes()).map(scattered).collect()
+}
+
 fn error(a: Real, b: Real) -> f64 {
     (a - b).abs().to_f64()
 }
 
-/// The coordinates, in the frame of sector 0, of the degree-raised characteristic net.
-fn characteristic_net(step: &Step, valence: usize) -> Vec<[Real; 2]> {
-    let two_c = Real::cos_of_turn(valence) + Real::cos_of_turn(valence);
-    let sectors = (0..valence).flat_map(|s| own_nodes().map(move |(i, j)| (s, i, j)));
+/// The new node by a rule on net and centre.
+fn applied(rule: &NetRule, net: &[Real], centre: Real) -> Real {
+    combined(&rule.on_net, net) + rule.on_centre * centre
+}
+
+/// The new node by a rule of the step, with q of sector 0: q_1..q_6.
+fn stepped(step: &Step, rule: &StepRule, net: &[Real], q: &Matrix) -> Real {
+    let next = &turn(step.net.valence) * q;
+    let by_net: Real = TURNS
+        .into_iter()
+        .zip(&rule.kappa)
+        .flat_map(|(r, row)| own_nodes().zip(row).map(move |(node, &weight)| (r, node, weight)))
+        .map(|(r, (i, j), weight)| weight * net[step.net.index(r, i, j)])
+        .sum();
+    let [on_own, on_next] = rule.on_quadratics();
+    let free = |q: &Matrix| -> Vec<Real> { (1..6).map(|m| q[(m, 0)]).collect() };
+    by_net
+        + combined(&on_own, &free(q))
+        + combined(&on_next, &free(&next))
+        + rule.on_centre * q[(0, 0)]
+}
+
+fn combined(weights: &[Real], values: &[Real]) -> Real {
+    assert_eq!(weights.len(), values.len());
+    weights.iter().zip(values).map(|(&weight, &value)| weight * value).sum()
+}
+
+fn column(values: &[Real]) -> Matrix {
+    Matrix::from_fn(values.len(), 1, |row, _| values[row])
+}
+
+/// One coordinate, 0 for u and 1 for v in the frame of sector 0, of the degree-raised
+/// characteristic net.
+fn characteristic_net(step: &Step, coordinate: usize) -> Vec<Real> {
+    let c = Real::cos_of_turn(step.net.valence);
+    let sectors = (0..step.net.valence).flat_map(|s| own_nodes().map(move |(i, j)| (s, i, j)));
     sectors
         .map(|(s, i, j)| {
             let own = [step.chi.net[place_index(i, j)], step.chi.net[place_index(j, i)]];
             // u e_(s-1) + v e_s = -v e_(s-2) + (u + 2c v) e_(s-1)
-            (0..s).fold(own, |[u, v], _| [-v, u + two_c * v])
+            (0..s).fold(own, |[u, v], _| [-v, u + (c + c) * v])[coordinate]
         })
         .collect()
 }
 
-fn applied(rule: &EgRule, values: impl Iterator<Item = Real>, centre: Real) -> Real {
-    let terms = rule.on_net.iter().zip(values).map(|(&weight, value)| weight * value);
-    terms.sum::<Real>() + rule.on_centre * centre
+/// q_1..q_6 of the map u (0) or v (1): the points (a, b) of total degree 5 are a/5 and b/5.
+fn quadratic_of_coordinate(coordinate: usize) -> Matrix {
+    column(&Q_POINTS.map(|(a, b)| Real::ratio([a, b][coordinate] as i32, 5)))
 }
 
 #[test]
 fn constants_are_reproduced() {
     for n in 3..=16 {
         for order in [EG_ORDER, QAS_ORDER] {
-            for rule in evolving_guide(n, order) {
-                let ones = rule.on_net.iter().map(|_| Real::ONE);
-                assert!(error(applied(&rule, ones, Real::ONE), Real::ONE) < 1e-28, "n = {n}");
+            let qas = quadratic_attraction(n, order);
+            assert!(qas.nodes.iter().all(|rule| error(rule.sum(), Real::ONE) < 1e-28), "n = {n}");
+            for rule in evolving_guide(n, order).iter().chain(&qas.q) {
+                let ones = vec![Real::ONE; rule.on_net.len()];
+                assert!(error(applied(rule, &ones, Real::ONE), Real::ONE) < 1e-28, "n = {n}");
             }
         }
     }
@@ -54,13 +94,32 @@ fn constants_are_reproduced() {
 fn the_characteristic_net_is_refined_to_lambda_times_itself() {
     for n in 3..=16 {
         let step = step(n);
-        let net = characteristic_net(&step, n);
-        for (rule, (h, k)) in evolving_guide(n, EG_ORDER).iter().zip(RULES) {
-            for (coordinate, place) in [(0, (h, k)), (1, (k, h))] {
-                let values = net.iter().map(|node| node[coordinate]);
-                let new = applied(rule, values, Real::ZERO);
-                let old = step.chi.net[place_index(place.0, place.1)];
-                assert!(error(new, step.chi.lambda * old) < 1e-28, "n = {n}, rule {h}{k}");
+        let eg = evolving_guide(n, EG_ORDER);
+        for coordinate in [0, 1] {
+            let net = characteristic_net(&step, coordinate);
+            let q = quadratic_of_coordinate(coordinate);
+            for (rule, (h, k)) in eg.iter().zip(RULES) {
+                let place = [place_index(h, k), place_index(k, h)][coordinate];
+                let expected = step.chi.lambda * step.chi.net[place];
+                let by_eg = applied(rule, &net, Real::ZERO);
+                assert!(error(by_eg, expected) < 1e-28, "EG, n = {n}, rule {h}{k}");
+                let by_qas = stepped(&step, &step.rule(h, k), &net, &q);
+                assert!(error(by_qas, expected) < 1e-28, "QAS, n = {n}, rule {h}{k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_first_quadratic_of_the_characteristic_net_is_the_plane() {
+    for n in 3..=16 {
+        let step = step(n);
+        for coordinate in [0, 1] {
+            let net = characteristic_net(&step, coordinate);
+            let q = quadratic_of_coordinate(coordinate);
+            for ((m, _), rule) in Q_RULES.iter().zip(quadratic_attraction(n, QAS_ORDER).q) {
+                let by_net = applied(&rule, &net, Real::ZERO);
+                assert!(error(by_net, q[(m - 1, 0)]) < 1e-28, "q_{m}, n = {n}");
             }
         }
     }
@@ -87,24 +146,137 @@ fn regular_nodes_of_the_characteristic_net_shrink_by_lambda_too() {
 #[test]
 fn the_rules_have_all_mirror_symmetries() {
     for n in 3..=16 {
-        let net = DNet { valence: n };
         let rules = evolving_guide(n, EG_ORDER);
-        let symmetric = symmetrised(n, &rules);
+        let exact = symmetrised(n, &rules);
         for number in 0..RULES.len() {
-            for (r, (i, j)) in (0..n).flat_map(|r| own_nodes().map(move |node| (r, node))) {
-                let (mirror, r2, i2, j2) = mirrored(n, number, (r, i, j));
-                assert_eq!(mirrored(n, mirror, (r2, i2, j2)), (number, r, i, j));
-                let weight = |rules: &[EgRule; 6], number: usize, r: usize, i, j| {
-                    rules[number].on_net[net.index(r as isize, i, j)]
-                };
-                let own = weight(&rules, number, r, i, j);
-                let image = weight(&rules, mirror, r2, i2, j2);
-                assert!(error(own, image) < 1e-28, "n = {n}, rule {number}, {r} {i}{j}");
-                let own = weight(&symmetric, number, r, i, j);
-                assert_eq!(own, weight(&symmetric, mirror, r2, i2, j2));
+            let (mirror, image) = mirror_of(number);
+            let mirrored = rules[image].mirrored(n, mirror);
+            for (&own, &image) in rules[number].on_net.iter().zip(&mirrored.on_net) {
+                assert!(error(own, image) < 1e-28, "n = {n}, rule {number}");
+            }
+            assert_eq!(exact[number], exact[image].mirrored(n, mirror));
+        }
+    }
+}
+
+#[test]
+fn the_rules_of_the_step_have_all_mirror_symmetries() {
+    for n in 3..=16 {
+        let step = step(n);
+        let rules = RULES.map(|(h, k)| step.rule(h, k));
+        let exact = symmetrised_step(&rules);
+        for number in 0..RULES.len() {
+            let image = &rules[mirror_of(number).1].mirrored();
+            let weights = |rule: &StepRule| -> Vec<Real> {
+                rule.kappa.iter().flatten().chain(&rule.tau).copied().collect()
+            };
+            for (own, image) in weights(&rules[number]).into_iter().zip(weights(image)) {
+                assert!(error(own, image) < 1e-28, "n = {n}, rule {number}");
+            }
+            assert_eq!(exact[number], exact[mirror_of(number).1].mirrored());
+        }
+    }
+}
+
+#[test]
+fn the_first_quadratic_has_the_symmetries_of_the_net() {
+    for n in 3..=16 {
+        let q = step(n).quadratic(QAS_ORDER);
+        for ((m, mirror), exact) in Q_RULES.into_iter().zip(quadratic_attraction(n, QAS_ORDER).q) {
+            assert_eq!(exact.mirrored(n, mirror), exact, "q_{m}, n = {n}");
+            let derived = &q.row(m - 1)[..12 * n];
+            for (&derived, &exact) in derived.iter().zip(&exact.on_net) {
+                assert!(error(derived, exact) < 1e-28, "q_{m}, n = {n}");
             }
         }
     }
+}
+
+/// The extraordinary point of the scattered nets.
+fn centre() -> Real {
+    Real::ratio(3, 4)
+}
+
+/// q of a net around [`centre`].
+fn best_quadratic(step: &Step, net: &[Real], order: usize) -> Matrix {
+    let given = [net, &[centre()]].concat();
+    &step.quadratic(order) * &column(&given)
+}
+
+#[test]
+fn evolving_guide_is_the_step_with_the_best_quadratic() {
+    for n in [3, 5, 6, 9, 16] {
+        let (step, net) = (step(n), scattered_net(n));
+        for order in [EG_ORDER, QAS_ORDER] {
+            let q = best_quadratic(&step, &net, order);
+            for (rule, (h, k)) in evolving_guide(n, order).iter().zip(RULES) {
+                let by_step = stepped(&step, &step.rule(h, k), &net, &q);
+                let by_rule = applied(rule, &net, centre());
+                assert!(error(by_rule, by_step) < 1e-27, "F_{order}, n = {n}, rule {h}{k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_best_quadratic_makes_the_functional_stationary_and_keeps_p() {
+    for n in [3, 5, 8] {
+        let (step, net) = (step(n), scattered_net(n));
+        for order in [EG_ORDER, QAS_ORDER] {
+            let q = best_quadratic(&step, &net, order);
+            assert_eq!(q[(0, 0)], centre());
+            for m in 1..6 {
+                let moved = |by: i32| {
+                    let step_to = |row| if row == m { Real::from(by) } else { Real::ZERO };
+                    let there = Matrix::from_fn(6, 1, |row, _| q[(row, 0)] + step_to(row));
+                    energy(&step, &net, &there, order)
+                };
+                let (back, here, forth) = (moved(-1), moved(0), moved(1));
+                assert!(back > here && error(back, forth) < 1e-24 * here.to_f64(), "n = {n}");
+            }
+        }
+    }
+}
+
+/// The sum of F_`order` over the sectors of the guide.
+fn energy(step: &Step, net: &[Real], q: &Matrix, order: usize) -> Real {
+    let functional = functional(order);
+    let mut turned = q.clone();
+    let mut sum = Real::ZERO;
+    for sector in 0..step.net.valence {
+        let nodes: Vec<Real> =
+            places().map(|(i, j)| net[step.net.index(sector as isize, i, j)]).collect();
+        let g = &(&step.guide.on_net * &column(&nodes)) + &(&step.guide.on_q * &turned);
+        sum += (&g.transposed() * &(&functional * &g))[(0, 0)];
+        turned = &turn(step.net.valence) * &turned;
+    }
+    sum
+}
+
+#[test]
+fn the_rules_of_q4_and_q5_give_all_of_the_best_quadratic() {
+    for n in [3, 5, 6, 7, 16] {
+        let (step, net) = (step(n), scattered_net(n));
+        let expected = best_quadratic(&step, &net, QAS_ORDER);
+        let [q4, q5] = quadratic_attraction(n, QAS_ORDER).q.map(|rule| -> Vec<Real> {
+            (0..n).map(|s| applied(&rule, &net_from_sector(&net, s), centre())).collect()
+        });
+        let c = Real::cos_of_turn(n);
+        let q6 = |s: usize| {
+            let sides = q5[s] + q5[(s + 1) % n];
+            (sides - Real::from(2) * (Real::ONE - c) * q4[s]) / (c + c)
+        };
+        let last = n - 1;
+        let all = [centre(), q4[last], q6(last), q4[0], q5[0], q6(0)];
+        for (m, value) in all.into_iter().enumerate() {
+            assert!(error(value, expected[(m, 0)]) < 1e-27, "q_{}, n = {n}", m + 1);
+        }
+    }
+}
+
+/// The net with sector s named 0.
+fn net_from_sector(net: &[Real], s: usize) -> Vec<Real> {
+    [&net[12 * s..], &net[..12 * s]].concat()
 }
 
 /// A bi-4 C2 spline on the plane: its nodes at the positions -3..=3 in both directions. Around the
@@ -161,13 +333,11 @@ fn at_valence_4_the_step_with_the_splines_own_quadratic_is_regular_refinement() 
         .flat_map(|s| own_nodes().map(move |(i, j)| (s, 3 - i as isize, 3 - j as isize)))
         .map(|(s, a, b)| RegularSpline::in_sector(s, a, b))
         .collect();
-    let q = RegularSpline::quadratic();
-    for (h, k) in RULES {
-        let rule = step.rule(h, k);
-        let by_net: Real = rule.on_net.iter().zip(&net).map(|(&w, &d)| w * d).sum();
-        let by_q: Real = rule.on_q.iter().zip(&q).map(|(&w, &q)| w * q).sum();
+    let q = column(&RegularSpline::quadratic());
+    for rule in quadratic_attraction(4, QAS_ORDER).nodes {
+        let (h, k) = rule.node;
         let regular = RegularSpline::refined(3 - h as isize, 3 - k as isize);
-        assert!(error(by_net + by_q, regular) < 1e-29, "node {h}{k}");
+        assert!(error(stepped(&step, &rule, &net, &q), regular) < 1e-29, "node {h}{k}");
     }
 }
 
