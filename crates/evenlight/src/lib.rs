@@ -1,6 +1,7 @@
 //! Fair subdivision surfaces from quad meshes.
 
 pub mod analyse;
+mod angle;
 pub mod io;
 pub mod mesh;
 pub mod net;

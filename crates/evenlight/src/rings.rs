@@ -31,9 +31,9 @@
 
 use std::sync::{Arc, OnceLock};
 
-use crate::net::{CNet, DNet};
+use crate::net::{CNet, DNet, Expansion, Quadratic};
 use crate::patch::{Jet, Patch, SurfacePoint};
-use crate::point::{Point, Vector, add_scaled, cross, dot, norm, scale, sub, unit};
+use crate::point::{Point, Vector, add, add_scaled, cross, dot, norm, scale, sub, unit};
 use crate::scheme::{RuleSet, Rules, SchemeKind, Subdominant};
 
 /// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
@@ -72,6 +72,7 @@ impl ValenceRules {
 pub struct Rings {
     rules: Arc<ValenceRules>,
     center: Point,
+    quadratic: Option<Quadratic>,
     frame: Frame,
     /// The net in front of ring 0, in the frame.
     first: Vec<Vector>,
@@ -103,34 +104,61 @@ impl Rings {
     /// The surface over a c-net; `None` if the scheme has no rules for its valence.
     pub fn from_cnet(cnet: &CNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
         let rules = Arc::new(ValenceRules::new(kind, set, cnet.valence())?);
-        Some(Self::with_rules(cnet, rules))
+        Some(Self::with_rules(cnet, rules, None))
     }
 
     /// The surface over a d-net with c_0 by [`DNet::center`]; `None` if the scheme has no rules
     /// for its valence or does not work on d-nets.
     pub fn from_dnet(dnet: &DNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
-        if !kind.takes_dnets() {
-            return None;
-        }
+        let center = dnet.center(kind.spline()?);
         let rules = Arc::new(ValenceRules::new(kind, set, dnet.valence())?);
-        let center = dnet.center();
-        let net = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
-        Some(Self::start(net, center, rules))
+        let net: Vec<Vector> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
+        Some(Self::start(&net, center, None, rules))
     }
 
-    pub(crate) fn with_rules(cnet: &CNet, rules: Arc<ValenceRules>) -> Self {
-        let center = rules.kind.limit_point(cnet);
+    /// The same surface with another quadratic q at the centre, whose point q_1 becomes the
+    /// limit point; `None` if the scheme has no quadratic.
+    ///
+    /// The control net, and so the outer border up to second derivatives, stays as it is.
+    pub fn with_quadratic(&self, q: &Quadratic) -> Option<Self> {
+        let rules = &self.rules.rules;
+        rules.quadratic.as_ref()?;
+        let control = rules.control_nodes_per_sector();
+        let sectors = self.first.chunks(rules.nodes_per_sector);
+        let moved: Vec<Vector> = sectors
+            .flat_map(|sector| &sector[..control])
+            .map(|&p| sub(add(self.center, self.frame.world(1.0, 1.0, p)), q.center()))
+            .collect();
+        Some(Self::start(&moved, q.center(), Some(q.expansion()), self.rules.clone()))
+    }
+
+    pub(crate) fn with_rules(cnet: &CNet, rules: Arc<ValenceRules>, q: Option<&Quadratic>) -> Self {
+        let center = q.map_or_else(|| rules.kind.limit_point(cnet), Quadratic::center);
         let net = rules.kind.net(&cnet.relative_to(center));
-        Self::start(net, center, rules)
+        Self::start(&net, center, q.map(Quadratic::expansion), rules)
     }
 
-    fn start(net: Vec<Vector>, center: Point, rules: Arc<ValenceRules>) -> Self {
+    /// The surface of a control net relative to its limit point `center`, with the given or the
+    /// default quadratic if the scheme has one.
+    fn start(
+        net: &[Vector],
+        center: Point,
+        q: Option<Expansion>,
+        rules: Arc<ValenceRules>,
+    ) -> Self {
+        let q = rules.rules.default_quadratic(net).map(|default| q.unwrap_or(default));
+        let net = match q {
+            Some(q) => rules.rules.with_quadratic(net, q),
+            None => net.to_vec(),
+        };
         let frame = Frame::new(&rules.subdominant, &net);
         let mut first: Vec<Vector> = net.iter().map(|&p| frame.coordinates(p)).collect();
         if frame.has_plane {
             rules.subdominant.remove_from_coordinate(2, &mut first);
         }
-        Self { rules, center, frame, first, cached: [const { OnceLock::new() }; CACHED_RINGS] }
+        let quadratic = q.map(|q| Quadratic::from_expansion(center, q));
+        let cached = [const { OnceLock::new() }; CACHED_RINGS];
+        Self { rules, center, quadratic, frame, first, cached }
     }
 
     /// The valence.
@@ -146,6 +174,11 @@ impl Rings {
     /// The limit point c_0.
     pub fn center(&self) -> Point {
         self.center
+    }
+
+    /// The quadratic at the centre, for schemes that have one.
+    pub fn quadratic(&self) -> Option<&Quadratic> {
+        self.quadratic.as_ref()
     }
 
     /// The unit normal at the limit point; NaN if there is no tangent plane.
@@ -181,8 +214,8 @@ impl Rings {
 
     /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
     ///
-    /// At (0,0) the position is the limit point and the normal the limit normal; derivatives
-    /// and curvature are NaN. Elsewhere curvature is exact to rounding at any depth.
+    /// At (0,0) the position is the limit point and the normal the limit normal; derivatives are
+    /// NaN there, curvature is [`Rings::center_curvature`] or NaN. Elsewhere curvature is exact to rounding at any depth.
     /// Derivatives are in world coordinates; beyond ring 500 or so the second derivatives may
     /// exceed the range of f64.
     ///
@@ -216,7 +249,21 @@ impl Rings {
     fn at_center(&self) -> SurfacePoint {
         let nan = [f64::NAN; 3];
         let jet = Jet { p: self.center, du: nan, dv: nan, duu: nan, duv: nan, dvv: nan };
-        SurfacePoint { jet, normal: self.normal(), gauss: f64::NAN, mean: f64::NAN }
+        let (gauss, mean) = self.center_curvature().unwrap_or((f64::NAN, f64::NAN));
+        SurfacePoint { jet, normal: self.normal(), gauss, mean }
+    }
+
+    /// K and H at the limit point: those of q, in schemes with a quadratic and where there is a
+    /// tangent plane. In the others curvature has no limit (it grows, or oscillates, from ring to
+    /// ring).
+    ///
+    /// Around the centre curvature varies with the direction, within a band around these values
+    /// that does not shrink: bounded curvature is not continuous curvature.
+    pub fn center_curvature(&self) -> Option<(f64, f64)> {
+        let q = self.quadratic.filter(|_| self.frame.has_plane)?;
+        let [du, dv, uu, duv, vv] = q.expansion();
+        let jet = Jet { p: self.center, du, dv, duu: scale(2.0, uu), duv, dvv: scale(2.0, vv) };
+        Some(jet.curvature())
     }
 
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
@@ -232,7 +279,7 @@ impl Rings {
         let (normal, gauss, mean) = normal_and_curvature(jet, sigma, zeta);
         SurfacePoint {
             jet: Jet {
-                p: crate::point::add(self.center, world(sigma, jet.p)),
+                p: add(self.center, world(sigma, jet.p)),
                 du: world(first, jet.du),
                 dv: world(first, jet.dv),
                 duu: world(second, jet.duu),
@@ -249,7 +296,7 @@ impl Rings {
     fn to_world(&self, ring: usize, patch: &Patch) -> Patch {
         let sigma = power(self.lambda(), ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
-        let point = |&r: &Vector| crate::point::add(self.center, self.frame.world(sigma, zeta, r));
+        let point = |&r: &Vector| add(self.center, self.frame.world(sigma, zeta, r));
         Patch::new(patch.degree(), patch.coefs().iter().map(point).collect())
     }
 

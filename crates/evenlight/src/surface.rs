@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use crate::mesh::isolation::{CORNERS, Piece, Place, Plan, cnet_vertices};
 use crate::mesh::{Cage, FaceId, VertexId};
-use crate::net::CNet;
+use crate::net::{CNet, Quadratic};
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add_scaled, scale};
@@ -217,7 +217,7 @@ impl Surface {
         let rings = (0..plan.points.len())
             .map(|p| {
                 let cnet = gather(&cage, &plan, &refined, p);
-                Rings::with_rules(&cnet, rules[&plan.points[p].valence].clone())
+                Rings::with_rules(&cnet, rules[&plan.points[p].valence].clone(), None)
             })
             .collect::<Vec<_>>();
         let points = rings.iter().enumerate().map(|(p, r)| describe(&plan, p, r)).collect();
@@ -279,12 +279,27 @@ impl Surface {
         &self.rings[point]
     }
 
+    /// Replaces the quadratic q of an extraordinary point, by its index; `false` if the scheme has
+    /// no quadratics.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such point.
+    pub fn set_quadratic(&mut self, point: usize, q: &Quadratic) -> bool {
+        let Some(rings) = self.rings[point].with_quadratic(q) else { return false };
+        self.points[point].position = rings.center();
+        self.points[point].normal = rings.normal();
+        self.rings[point] = rings;
+        true
+    }
+
     /// Position, derivatives, normal and curvature at (u,v) of `quad`, which are clamped to
     /// [0,1]; `None` if the face is omitted, there is no such quad or a parameter is NaN.
     ///
     /// At an extraordinary point itself the position is the limit point and the normal the
-    /// limit normal; derivatives and curvature do not exist there and are NaN. Anywhere else,
-    /// however near, they are exact to rounding ([`Rings::eval`]).
+    /// limit normal; derivatives do not exist there and are NaN, nor does curvature but for
+    /// schemes with a quadratic, where it is that of q ([`Rings::center_curvature`]). Anywhere
+    /// else, however near, all are exact to rounding ([`Rings::eval`]).
     pub fn eval(&self, quad: QuadId, u: f64, v: f64) -> Option<SurfacePoint> {
         if u.is_nan() || v.is_nan() {
             return None;

@@ -3,7 +3,7 @@
 mod common;
 
 use common::Random;
-use evenlight::net::{CNet, DNet};
+use evenlight::net::{CNet, DNet, Spline};
 use evenlight::point::{norm, sub};
 use evenlight::rings::Rings;
 use evenlight::{RuleSet, SchemeKind};
@@ -20,7 +20,8 @@ fn a_degree_raised_cnet_gives_the_surface_of_the_cnet() {
         let cnet = random_cnet(n, &mut random);
         let (eg, set) = (SchemeKind::EvolvingGuide, RuleSet::Generated);
         let of_cnet = Rings::from_cnet(&cnet, eg, set).unwrap();
-        let of_dnet = Rings::from_dnet(&DNet::from_cnet(&cnet), eg, set).unwrap();
+        let of_dnet =
+            Rings::from_dnet(&DNet::from_cnet(&cnet, Spline::BiQuartic), eg, set).unwrap();
         assert!(norm(sub(of_cnet.center(), of_dnet.center())) < 1e-14);
         for ring in 0..6 {
             for (p, q) in of_cnet.patches(ring).iter().zip(&of_dnet.patches(ring)) {
@@ -34,7 +35,7 @@ fn a_degree_raised_cnet_gives_the_surface_of_the_cnet() {
 fn a_general_dnet_keeps_its_border_and_shrinks_to_its_centre() {
     let mut random = Random::new(4);
     for n in [3, 5, 8] {
-        let mut dnet = DNet::from_cnet(&random_cnet(n, &mut random));
+        let mut dnet = DNet::from_cnet(&random_cnet(n, &mut random), Spline::BiQuartic);
         for p in dnet.sectors.iter_mut().flatten() {
             p[2] += random.unit();
         }
@@ -49,7 +50,7 @@ fn a_general_dnet_keeps_its_border_and_shrinks_to_its_centre() {
             assert!(norm(sub(found, corner)) < 1e-14, "{found:?} {corner:?}");
         }
         let deep = rings.eval(0, 0.5_f64.powi(60), 0.0).jet.p;
-        assert!(norm(sub(deep, dnet.center())) < 1e-12);
+        assert!(norm(sub(deep, dnet.center(Spline::BiQuartic))) < 1e-12);
     }
 }
 

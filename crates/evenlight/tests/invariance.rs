@@ -18,7 +18,7 @@ const CAGES: [&str; 4] = [
 ];
 
 fn build(mesh: Mesh, scheme: SchemeKind) -> Surface {
-    common::surface(&Arc::new(Cage::new(mesh).unwrap()), scheme)
+    common::surface(&Arc::new(Cage::new(mesh).expect("the mesh is a cage")), scheme)
 }
 
 fn distance(a: Point, b: Point) -> f64 {
@@ -47,7 +47,7 @@ fn affine_maps_commute_with_the_surface() {
         ]
     };
     for name in CAGES {
-        for scheme in common::BOTH {
+        for scheme in SchemeKind::ALL {
             let mesh = common::mesh(name);
             let mut moved = mesh.clone();
             moved.positions.iter_mut().for_each(|p| *p = map(*p));
@@ -67,7 +67,7 @@ fn planar_cages_give_planes_and_keep_them_exactly() {
         // A plane in which every number below is exact in binary.
         mesh.positions.iter_mut().for_each(|p| p[2] = 0.25 * p[0] - 0.5 * p[1] + 2.0);
         let normal = [-0.25, 0.5, 1.0].map(|x| x / 1.3125_f64.sqrt());
-        for scheme in common::BOTH {
+        for scheme in SchemeKind::ALL {
             let surface = build(mesh.clone(), scheme);
             for (quad, u, v) in samples(&surface, 300) {
                 let Some(p) = surface.eval(quad, u, v) else { continue };
@@ -82,22 +82,29 @@ fn planar_cages_give_planes_and_keep_them_exactly() {
 
 #[test]
 fn a_torus_without_extraordinary_vertices_has_the_same_bits_in_all_schemes() {
-    let [cc, eg] = common::BOTH.map(|scheme| build(common::torus(12, 8), scheme));
+    let cc = build(common::torus(12, 8), SchemeKind::CatmullClark);
     assert!(cc.extraordinary_points().is_empty() && cc.omitted_faces().is_empty());
-    assert!(cc.patches(6).eq(eg.patches(6)));
-    for (quad, u, v) in samples(&cc, 500) {
-        assert_eq!(cc.eval(quad, u, v), eg.eval(quad, u, v));
+    for scheme in SchemeKind::ALL {
+        let other = build(common::torus(12, 8), scheme);
+        assert!(cc.patches(6).eq(other.patches(6)));
+        for (quad, u, v) in samples(&cc, 500) {
+            assert_eq!(cc.eval(quad, u, v), other.eval(quad, u, v));
+        }
     }
 }
 
 #[test]
 fn schemes_differ_only_in_the_faces_at_extraordinary_points() {
     for (name, cage) in common::all_cages() {
-        let [cc, eg] = common::BOTH.map(|s| Surface::build(cage.clone(), common::options(s)));
-        let (Ok(cc), Ok(eg)) = (cc, eg) else { continue };
-        let regular =
-            |s: &Surface| s.patches(0).map(|p| (p.quad, p.domain, p.patch)).collect::<Vec<_>>();
-        assert_eq!(regular(&cc), regular(&eg), "{name}");
+        let regular = |scheme: SchemeKind| {
+            let surface = Surface::build(cage.clone(), common::options(scheme)).ok()?;
+            Some(surface.patches(0).collect::<Vec<_>>())
+        };
+        let cc = regular(SchemeKind::CatmullClark);
+        for scheme in SchemeKind::ALL {
+            let other = regular(scheme);
+            assert!(other.is_none() || other == cc, "{name}, {}", scheme.name());
+        }
     }
 }
 
@@ -123,7 +130,7 @@ fn the_order_of_vertices_and_faces_does_not_matter() {
             .iter()
             .map(|&f| faces[f].iter().map(|v| new_vertex[v.index()]).collect::<Vec<u32>>());
         let shuffled = Mesh::new(positions, shuffled);
-        for scheme in common::BOTH {
+        for scheme in SchemeKind::ALL {
             let (a, b) = (build(mesh.clone(), scheme), build(shuffled.clone(), scheme));
             for (quad, u, v) in samples(&a, 500) {
                 let new = old_face.iter().position(|&f| f == quad.0 as usize).unwrap();
@@ -147,7 +154,7 @@ fn the_first_corner_of_a_face_does_not_matter() {
             corners
         });
         let turned = Mesh::new(mesh.positions.clone(), turned);
-        for scheme in common::BOTH {
+        for scheme in SchemeKind::ALL {
             let (a, b) = (build(mesh.clone(), scheme), build(turned.clone(), scheme));
             for (quad, u, v) in samples(&a, 500) {
                 // The new (0,0) is the old corner k.

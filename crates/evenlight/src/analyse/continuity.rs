@@ -165,7 +165,7 @@ fn contains(place: &PatchPlace, at: [f64; 2]) -> bool {
 /// The jumps between two answers for one point, in the same parameters.
 fn compare(a: &SurfacePoint, b: &SurfacePoint, size: f64) -> Jumps {
     let angle = norm(cross(a.normal, b.normal)).atan2(dot(a.normal, b.normal));
-    let (ka, kb) = (principal(a), principal(b));
+    let (ka, kb) = (a.principal_curvatures(), b.principal_curvatures());
     let own = a.jet.scaled_parameters(size);
     let extent = own.rows()[1..].iter().map(|&r| norm(r)).fold(0.0, f64::max);
     let other = b.jet.scaled_parameters(size);
@@ -176,12 +176,6 @@ fn compare(a: &SurfacePoint, b: &SurfacePoint, size: f64) -> Jumps {
         curvature: (ka[0] - kb[0]).abs().max((ka[1] - kb[1]).abs()),
         parametric: apart.fold(0.0, f64::max) / extent,
     }
-}
-
-/// The principal curvatures, the larger first.
-fn principal(p: &SurfacePoint) -> [f64; 2] {
-    let root = (p.mean * p.mean - p.gauss).max(0.0).sqrt();
-    [p.mean + root, p.mean - root]
 }
 
 fn is_on_side(side: usize, [u, v]: [f64; 2]) -> bool {

@@ -3,5 +3,6 @@
 pub mod continuity;
 pub mod curvature;
 pub mod highlight;
+pub mod injectivity;
 #[cfg(feature = "spectrum")]
 pub mod spectrum;

@@ -7,9 +7,19 @@
 //! - lambda simple in the blocks 1 and n-1, with an injective characteristic map: the surface
 //!   is C1 at the extraordinary point [PR08];
 //! - mu = lambda^2: curvature is bounded there; mu > lambda^2: it is not.
+//!
+//! With a quadratic the matrix is block triangular,
+//!
+//! ```text
+//!   | M_d  M_dq |      M_q: 1, lambda, lambda, lambda^2 (three times)
+//!   |  0   M_q  |      M_d: the Fourier blocks of the control net
+//! ```
+//!
+//! and curvature is bounded if all eigenvalues of M_d are below lambda^2 [KP23-QAS, Section 5].
 
 use nalgebra::{Complex, DMatrix};
 
+use super::injectivity::jacobian_is_positive;
 use crate::patch::Patch;
 use crate::scheme::{RuleSet, Rules, SchemeKind, Subdominant};
 
@@ -27,9 +37,18 @@ pub struct Spectrum {
     pub lambda: f64,
     /// The modulus of the subsubdominant eigenvalue over lambda^2.
     pub mu_over_lambda2: f64,
+    /// The largest modulus among the eigenvalues of M_d, over lambda^2, for schemes with a
+    /// quadratic; below 1 it proves that curvature is bounded.
+    pub md_max_over_lambda2: Option<f64>,
+    /// How many entries of the whole matrix are zero, in percent.
+    pub zeros_percent: f64,
     /// The smallest Jacobian of the characteristic map on a grid of 17 x 17 points per patch of
-    /// its first ring, relative to the largest; positive if the map is locally injective there.
+    /// its first ring, relative to the largest.
     pub jacobian_min: f64,
+    /// Whether the Jacobian is positive on the whole first ring: proved by Bernstein-Bezier
+    /// coefficients, which bound it between the grid's points too. The map scales from ring to
+    /// ring and turns once around the centre, so it is injective.
+    pub injectivity_proved: bool,
 }
 
 /// The spectrum of `scheme` at `valence`; `None` if there are no rules for it.
@@ -38,47 +57,86 @@ pub struct Spectrum {
 /// below) to about 1e-5, as their eigenvectors coincide.
 pub fn spectrum(scheme: SchemeKind, set: RuleSet, valence: usize) -> Option<Spectrum> {
     let rules = scheme.rules(set, valence)?;
-    let mut moduli = vec![1.0];
-    moduli.extend((0..valence).flat_map(|m| block_moduli(&rules, m)));
-    moduli.sort_by(|a, b| b.total_cmp(a));
     let subdominant = Subdominant::new(&rules);
     let lambda = subdominant.lambda;
+    let mut moduli: Vec<f64> = (0..valence).flat_map(|m| block_moduli(&rules, m)).collect();
+    let largest = moduli.iter().copied().fold(0.0, f64::max);
+    moduli.push(1.0);
+    if rules.quadratic.is_some() {
+        moduli.extend([lambda, lambda, lambda * lambda, lambda * lambda, lambda * lambda]);
+    }
+    moduli.sort_by(|a, b| b.total_cmp(a));
+    let ring = characteristic_ring(&rules, &subdominant);
     Some(Spectrum {
         valence,
         lambda,
         mu_over_lambda2: moduli[3] / (lambda * lambda),
-        jacobian_min: smallest_jacobian(&rules, &subdominant),
+        md_max_over_lambda2: rules.quadratic.as_ref().map(|_| largest / (lambda * lambda)),
+        zeros_percent: zeros_percent(scheme, &rules),
+        jacobian_min: smallest_jacobian(&ring),
+        injectivity_proved: ring.iter().all(jacobian_is_positive),
         moduli,
     })
 }
 
-/// The moduli of the eigenvalues of Fourier block `m`.
+/// The moduli of the eigenvalues of Fourier block `m` of the control net.
 fn block_moduli(rules: &Rules, m: usize) -> Vec<f64> {
-    let (n, size) = (rules.valence, rules.nodes_per_sector);
+    let (n, all, size) = (rules.valence, rules.nodes_per_sector, rules.control_nodes_per_sector());
     let mut block = DMatrix::<Complex<f64>>::zeros(size, size);
-    for (i, row) in rules.refine.iter().enumerate() {
-        for &(node, w) in row {
-            let turns = (m * (node / size)) % n;
+    for (i, row) in rules.refine[..size].iter().enumerate() {
+        for &(at, w) in row.iter().filter(|(at, _)| at % all < size) {
+            let turns = (m * (at / all)) % n;
             let angle = std::f64::consts::TAU * turns as f64 / n as f64;
-            block[(i, node % size)] += Complex::from_polar(w, angle);
+            block[(i, at % all)] += Complex::from_polar(w, angle);
         }
     }
     let (_, triangular) = block.schur().unpack();
     triangular.diagonal().iter().map(|z| z.norm()).collect()
 }
 
-fn smallest_jacobian(rules: &Rules, subdominant: &Subdominant) -> f64 {
+/// The zeros of the whole matrix in percent, as the paper counts them [KP23-QAS, Section 8]: nets
+/// of 12 nodes per sector and the centre (for Catmull-Clark three rings of quads and e), with a
+/// quadratic 5 more per sector, q_2 to q_6, each sector for itself.
+fn zeros_percent(scheme: SchemeKind, rules: &Rules) -> f64 {
+    let n = rules.valence;
+    let (per_sector, nodes, center_row) = if scheme == SchemeKind::CatmullClark {
+        // Node (a,b), a = 0..3, b = 1..3: 2 or 3 old nodes in either direction.
+        let old = |k: usize| if k.is_multiple_of(2) { 3 } else { 2 };
+        let pairs = (0..4).flat_map(|a| (1..4).map(move |b| (a, b)));
+        (pairs.map(|(a, b)| old(a) * old(b)).sum::<usize>(), 12, 2 * n + 1)
+    } else {
+        let control = &rules.refine[..rules.control_nodes_per_sector()];
+        let of_net: usize =
+            control.iter().map(|row| row.len() + usize::from(has_center(row))).sum();
+        // The rows of S in eq. (2) for q_2 to q_6 have 2, 3, 2, 4 and 3 entries.
+        let [of_q, q] = if rules.quadratic.is_some() { [14, 5] } else { [0, 0] };
+        (of_net + of_q, 12 + q, 1)
+    };
+    let (entries, size) = (n * per_sector + center_row, n * nodes + 1);
+    100.0 * (1.0 - entries as f64 / (size * size) as f64)
+}
+
+/// Whether a row leaves weight for the centre: its weights do not sum to one.
+fn has_center(row: &[(usize, f64)]) -> bool {
+    (row.iter().map(|(_, w)| w).sum::<f64>() - 1.0).abs() > 1e-9
+}
+
+/// Sector 0 of the first ring of the characteristic map.
+fn characteristic_ring(rules: &Rules, subdominant: &Subdominant) -> Vec<Patch> {
     let net = subdominant.characteristic_net();
     let refined = rules.refine(&net);
+    (0..rules.patches_per_sector())
+        .map(|which| Patch::new([rules.degree; 2], rules.patch(0, which, &net, &refined)))
+        .collect()
+}
+
+fn smallest_jacobian(ring: &[Patch]) -> f64 {
+    let at = |k: usize| k as f64 / (GRID - 1) as f64;
     let mut jacobians = Vec::new();
-    for which in 0..rules.patches_per_sector() {
-        let patch = Patch::new([rules.degree; 2], rules.patch(0, which, &net, &refined));
-        for i in 0..GRID {
-            for j in 0..GRID {
-                let at = |k: usize| k as f64 / (GRID - 1) as f64;
-                let jet = patch.jet(at(i), at(j));
-                jacobians.push(jet.du[0] * jet.dv[1] - jet.du[1] * jet.dv[0]);
-            }
+    for patch in ring {
+        for k in 0..GRID * GRID {
+            let jet = patch.jet(at(k / GRID), at(k % GRID));
+            jacobians.push(jet.du[0] * jet.dv[1] - jet.du[1] * jet.dv[0]);
         }
     }
     let largest = jacobians.iter().fold(0.0_f64, |m, j| m.max(j.abs()));

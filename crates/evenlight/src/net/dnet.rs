@@ -16,7 +16,7 @@
 //!   x --- x --- x          + centre          x: line s-1, owned by sector s-1
 //! ```
 
-use super::{CNet, NodeRef};
+use super::{CNet, NodeRef, cnet_node};
 use crate::point::{Point, add_scaled, sub};
 
 /// The number of nodes that a sector of a d-net owns.
@@ -43,18 +43,15 @@ pub struct DNet {
 }
 
 impl DNet {
-    /// Degree raising of a c-net [KP23-EG, Fig. 5]: the same tensor-product spline around the
-    /// hole, written with bi-4 control points.
+    /// The d-net of a c-net: the same tensor-product spline around the hole, in one variable
     ///
-    /// In one variable a node on a grid line is (1,10,1)/12 of the grid nodes, one in the
-    /// middle of a quad (1,1)/2.
-    pub fn from_cnet(cnet: &CNet) -> Self {
+    /// - bi-4, by degree raising [KP23-EG, Fig. 5]: a node on a grid line is (1,10,1)/12 of the
+    ///   grid nodes, one in the middle of a quad (1,1)/2;
+    /// - bi-3, by knot insertion [KP23-QAS, Fig. 3]: (1,6,1)/8 and (1,1)/2.
+    pub fn from_cnet(cnet: &CNet, spline: Spline) -> Self {
+        let mask = |i| spline.mask(i);
         let sectors = (0..cnet.valence())
-            .map(|s| {
-                std::array::from_fn(|k| {
-                    cnet.tensor(s, &degree_raising(k % 4), &degree_raising(k / 4))
-                })
-            })
+            .map(|s| std::array::from_fn(|k| cnet.tensor(s, &mask(k % 4), &mask(k / 4))))
             .collect();
         Self { sectors }
     }
@@ -64,14 +61,14 @@ impl DNet {
         self.sectors.len()
     }
 
-    /// The centre that the d-net implies [KP23-EG, eq. 4]: that of the c-net whose degree-raised
-    /// net is nearest in the sense of least squares.
+    /// The centre that the d-net implies: that of the c-net whose d-net is nearest in the sense
+    /// of least squares [KP23-EG, eq. 4].
     ///
-    /// DIFFERENCE: the paper prints e_32 with a factor gamma_n / delta_n; with 48 in its place
-    /// the formula agrees with the least-squares problem that it solves.
-    pub fn center(&self) -> Point {
+    /// DIFFERENCE: the paper gives the solution for bi-4 in closed form, with a misprint in e_32
+    /// (48 (8483 n - 5008) for n > 4); here the 7 x 7 normal equations are solved, for bi-3 too.
+    pub fn center(&self, spline: Spline) -> Point {
         let first = self.sectors[0][0];
-        let weights = self.center_weights();
+        let weights = center_weights(self.valence(), spline);
         let mut sum = first;
         for sector in &self.sectors {
             for (&w, &d) in weights.iter().zip(sector) {
@@ -80,33 +77,81 @@ impl DNet {
         }
         sum
     }
+}
 
-    /// The weights e_ij / gamma_n of eq. (4), which sum to 1/n.
-    fn center_weights(&self) -> [f64; 12] {
-        let n = self.valence() as f64;
-        let (gamma, e00, e20, e22, e30, e31, e32);
-        if self.valence() == 3 {
-            (gamma, e00, e20, e22) = (93120.0, 11.0, -73.0, 10643.0);
-            (e30, e31, e32) = (-66.0, 396.0, 19062.0);
+/// What the nodes of a d-net are control points of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spline {
+    /// Uniform bi-3 splines with a knot at every half step.
+    BiCubic,
+    /// Bi-4 C2 splines with a knot at every grid line.
+    BiQuartic,
+}
+
+impl Spline {
+    /// The univariate mask of d-net index `i` on the c-net, by grid positions from the centre.
+    fn mask(self, i: usize) -> Vec<(isize, f64)> {
+        let p = 3 - i as isize;
+        let side = match self {
+            Self::BiCubic => 1.0 / 8.0,
+            Self::BiQuartic => 1.0 / 12.0,
+        };
+        if p % 2 == 0 {
+            vec![(p / 2 - 1, side), (p / 2, 1.0 - 2.0 * side), (p / 2 + 1, side)]
         } else {
-            (gamma, e00, e20) =
-                (178480.0 * n * (n + 5.0), 2587.0 * n - 8377.0, 19339.0 * n - 53929.0);
-            (e22, e30) = (157051.0 * n + 50279.0, 336.0 * (153.0 * n - 448.0));
-            (e31, e32) = (-6.0 * e30, 48.0 * (8483.0 * n - 5008.0));
+            vec![(p / 2, 0.5), (p / 2 + 1, 0.5)]
         }
-        let (e10, e11, e21) = (-6.0 * e00, 36.0 * e00, -6.0 * e20);
-        [e00, e10, e20, e30, e10, e11, e21, e31, e20, e21, e22, e32].map(|e| e / gamma)
     }
 }
 
-/// The univariate degree-raising mask of index `i`, on grid positions counted from the centre.
-fn degree_raising(i: usize) -> Vec<(isize, f64)> {
-    let p = 3 - i as isize;
-    if p % 2 == 0 {
-        vec![(p / 2 - 1, 1.0 / 12.0), (p / 2, 10.0 / 12.0), (p / 2 + 1, 1.0 / 12.0)]
-    } else {
-        vec![(p / 2, 0.5), (p / 2 + 1, 0.5)]
+/// The weights of the twelve nodes of every sector in the centre of a d-net of valence `n`; they
+/// sum to 1/n.
+///
+/// Only the means x of the c-net's nodes over all sectors matter (e and six more), and the means
+/// R x of the d-net's, R being the same for all valences. With the centre w^T x the weights are
+/// R (R^T R)^-1 w / n.
+fn center_weights(n: usize, spline: Spline) -> [f64; 12] {
+    let mut r = [[0.0; 7]; 12];
+    for (k, row) in r.iter_mut().enumerate() {
+        for (a, wa) in spline.mask(k % 4) {
+            for (b, wb) in spline.mask(k / 4) {
+                row[cnet_node(a, b).map_or(0, |at| at.node + 1)] += wa * wb;
+            }
+        }
     }
+    let mut normal = [[0.0; 7]; 7];
+    for (i, row) in normal.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = r.iter().map(|x| x[i] * x[j]).sum();
+        }
+    }
+    let count = n as f64;
+    // The centre of a c-net, eq. (3), with means in place of sums.
+    let mut w = [0.0; 7];
+    [w[0], w[1], w[3]] = if n == 3 {
+        [11.0 / 32.0, 0.5, 5.0 / 32.0]
+    } else {
+        [count, 4.0, 1.0].map(|x| x / (count + 5.0))
+    };
+    let y = solve_definite(normal, w);
+    r.map(|row| row.iter().zip(&y).map(|(a, b)| a * b).sum::<f64>() / count)
+}
+
+/// Solves a x = b for a positive definite matrix, by elimination, which needs no pivots then.
+fn solve_definite(mut a: [[f64; 7]; 7], mut b: [f64; 7]) -> [f64; 7] {
+    for k in 0..7 {
+        for i in k + 1..7 {
+            let factor = a[i][k] / a[k][k];
+            let pivot_row = a[k];
+            a[i].iter_mut().zip(pivot_row).for_each(|(x, y)| *x -= factor * y);
+            b[i] -= factor * b[k];
+        }
+    }
+    for k in (0..7).rev() {
+        let known: f64 = (k + 1..7).map(|j| a[k][j] * b[j]).sum();
+        b[k] = (b[k] - known) / a[k][k];
+    }
+    b
 }
 
 #[cfg(test)]
@@ -128,20 +173,39 @@ mod tests {
     }
 
     #[test]
-    fn the_centre_of_a_degree_raised_net_is_that_of_its_cnet() {
+    fn the_centre_of_a_dnet_is_that_of_its_cnet() {
         for n in [3, 5, 6, 7, 8, 12, 16] {
-            let cnet = crooked(n);
-            let (a, b) = (DNet::from_cnet(&cnet).center(), cnet.evolving_guide_limit());
-            assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-13), "n = {n}: {a:?} {b:?}");
+            for spline in [Spline::BiCubic, Spline::BiQuartic] {
+                let cnet = crooked(n);
+                let a = DNet::from_cnet(&cnet, spline).center(spline);
+                let b = cnet.evolving_guide_limit();
+                assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-12), "n = {n}: {a:?} {b:?}");
+            }
         }
     }
 
+    /// [KP23-EG, eq. 4] with e_32 corrected.
     #[test]
-    fn the_weights_of_the_centre_sum_to_one() {
-        for n in 3..20 {
-            let net = DNet { sectors: vec![[[0.0; 3]; 12]; n] };
-            let sum: f64 = net.center_weights().iter().sum();
-            assert!((sum * n as f64 - 1.0).abs() < 1e-14, "n = {n}: {sum}");
+    fn the_weights_of_the_centre_are_the_printed_ones() {
+        for n in (3..=16).filter(|&n| n != 4) {
+            let x = n as f64;
+            let (gamma, e00, e20, e22, e30, e31, e32);
+            if n == 3 {
+                (gamma, e00, e20, e22) = (93120.0, 11.0, -73.0, 10643.0);
+                (e30, e31, e32) = (-66.0, 396.0, 19062.0);
+            } else {
+                (gamma, e00) = (178480.0 * x * (x + 5.0), 2587.0 * x - 8377.0);
+                (e20, e22) = (19339.0 * x - 53929.0, 157051.0 * x + 50279.0);
+                e30 = 336.0 * (153.0 * x - 448.0);
+                (e31, e32) = (-6.0 * e30, 48.0 * (8483.0 * x - 5008.0));
+            }
+            let (e10, e11, e21) = (-6.0 * e00, 36.0 * e00, -6.0 * e20);
+            let printed = [e00, e10, e20, e30, e10, e11, e21, e31, e20, e21, e22, e32];
+            let weights = center_weights(n, Spline::BiQuartic);
+            for (w, e) in weights.iter().zip(printed) {
+                assert!((w - e / gamma).abs() < 1e-13, "n = {n}: {w} {}", e / gamma);
+            }
+            assert!((weights.iter().sum::<f64>() * x - 1.0).abs() < 1e-13);
         }
     }
 

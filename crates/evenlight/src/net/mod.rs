@@ -15,11 +15,14 @@
 
 mod cnet;
 mod dnet;
+mod quadratic;
 
 pub use cnet::CNet;
 pub(crate) use cnet::{CNET_NODES, cnet_node};
-pub use dnet::DNet;
 pub(crate) use dnet::{DNET_NODES, dnet_node};
+pub use dnet::{DNet, Spline};
+pub use quadratic::Quadratic;
+pub(crate) use quadratic::{Expansion, turned};
 
 /// A node of a net relative to some sector: the number of sectors to go on and the node's
 /// number within that sector.

@@ -39,9 +39,11 @@ fn second_derivative(d: usize, b: &[f64; MAX_DEGREE + 1]) -> [f64; MAX_DEGREE + 
         return [0.0; MAX_DEGREE + 1];
     }
     let factor = (d * (d - 1)) as f64;
-    std::array::from_fn(|i| {
-        if i > d { 0.0 } else { factor * (at(b, i, 2) - 2.0 * at(b, i, 1) + b[i]) }
-    })
+    std::array::from_fn(
+        |i| {
+            if i > d { 0.0 } else { factor * (at(b, i, 2) - 2.0 * at(b, i, 1) + b[i]) }
+        },
+    )
 }
 
 /// `b[i - back]`, zero in front of the first.

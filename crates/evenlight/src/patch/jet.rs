@@ -80,6 +80,16 @@ pub struct SurfacePoint {
     pub mean: f64,
 }
 
+impl SurfacePoint {
+    /// The principal curvatures, the larger first, in 1/unit: H +- sqrt(H^2 - K).
+    pub fn principal_curvatures(&self) -> [f64; 2] {
+        // At an umbilic rounding may leave H^2 - K just below zero; NaN stays NaN.
+        let difference = self.mean * self.mean - self.gauss;
+        let root = if difference < 0.0 { 0.0 } else { difference.sqrt() };
+        [self.mean + root, self.mean - root]
+    }
+}
+
 impl From<Jet> for SurfacePoint {
     fn from(jet: Jet) -> Self {
         let (gauss, mean) = jet.curvature();

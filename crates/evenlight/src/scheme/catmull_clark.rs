@@ -16,7 +16,15 @@ pub(crate) fn rules(n: usize) -> Rules {
         (0..CNET_NODES).map(|k| refined_node(n, k as isize / 2, k as isize % 2 + 1)).collect();
     // The corners of the three squares on the refined grid, in the order of `Rules`.
     let patches = [(1, 1), (1, 0), (0, 1)].map(|(a, b)| patch(n, a, b)).into();
-    Rules { valence: n, nodes_per_sector: CNET_NODES, refine, degree: 3, split: 1, patches }
+    Rules {
+        valence: n,
+        nodes_per_sector: CNET_NODES,
+        refine,
+        degree: 3,
+        split: 1,
+        patches,
+        quadratic: None,
+    }
 }
 
 /// e as a function of the other nodes.

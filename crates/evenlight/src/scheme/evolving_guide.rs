@@ -6,9 +6,8 @@
 //! [`tables`](super::tables). The weight of c_0 drops out, since c_0 is the origin here.
 
 use super::rules::{Row, RowBuilder, Rules};
-use super::spline::Spline;
 use super::tables::{self, EgWeights};
-use crate::net::{DNET_NODES, NodeRef};
+use crate::net::{DNET_NODES, NodeRef, Spline};
 
 /// The rules of Evolving-Guide subdivision at valence `n`, if there are tables for it.
 pub(crate) fn rules(n: usize, published: bool) -> Option<Rules> {
@@ -22,6 +21,7 @@ pub(crate) fn rules(n: usize, published: bool) -> Option<Rules> {
         degree: Spline::BiQuartic.degree(),
         split: Spline::BiQuartic.split(),
         patches: Spline::BiQuartic.patches(&empty),
+        quadratic: None,
     })
 }
 

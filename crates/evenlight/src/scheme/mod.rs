@@ -5,6 +5,7 @@
 
 mod catmull_clark;
 mod evolving_guide;
+mod quadratic_attraction;
 mod rules;
 mod spline;
 mod subdominant;
@@ -13,21 +14,28 @@ mod tables;
 pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;
 
-use crate::net::{CNet, DNet};
+use crate::net::{CNet, DNet, Spline};
 use crate::point::Point;
 
 /// Which subdivision scheme makes the surface around extraordinary points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SchemeKind {
     /// Catmull-Clark subdivision [CC78]: bi-3 rings, C1 at the centre, unbounded curvature there.
     CatmullClark,
     /// Evolving-Guide subdivision [KP23-EG]: bi-4 rings, C1 at the centre, without pinching.
     EvolvingGuide,
+    /// Point-augmented subdivision [KP23-QAS, Section 7]: 2 x 2 bi-3 macro-patches, C1 at the
+    /// centre.
+    Pas3,
+    /// Point-augmented subdivision [KP23-QAS, Section 7]: bi-4 rings, C1 at the centre.
+    Pas4,
+    /// Quadratic-Attraction subdivision [KP23-QAS]: 2 x 2 bi-3 macro-patches, curvature bounded
+    /// at the centre.
+    Qas3,
+    /// Quadratic-Attraction subdivision [KP23-QAS]: bi-4 rings, curvature bounded at the centre.
+    #[default]
+    Qas4,
 }
-
-/// Catmull-Clark has rules for every valence; the limit keeps a face with a million corners from
-/// using up the memory.
-const MAX_CATMULL_CLARK_VALENCE: usize = 1024;
 
 /// Which tables of weights are used, by schemes that have tables.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -35,19 +43,24 @@ pub enum RuleSet {
     /// Full precision, valences 3 and 5 to 16.
     #[default]
     Generated,
-    /// As the paper prints them, truncated to 5 digits: valences 3 and 5 to 10.
+    /// As the papers print them, truncated to 5 digits: valences 3 and 5 to 10.
     Published,
 }
 
 impl SchemeKind {
     /// All schemes, in the order in which they are listed to users.
-    pub const ALL: [Self; 2] = [Self::CatmullClark, Self::EvolvingGuide];
+    pub const ALL: [Self; 6] =
+        [Self::CatmullClark, Self::EvolvingGuide, Self::Pas3, Self::Pas4, Self::Qas3, Self::Qas4];
 
-    /// The short name used in commands and files: `cc`, `eg`.
+    /// The short name used in commands and files.
     pub fn name(self) -> &'static str {
         match self {
             Self::CatmullClark => "cc",
             Self::EvolvingGuide => "eg",
+            Self::Pas3 => "pas3",
+            Self::Pas4 => "pas4",
+            Self::Qas3 => "qas3",
+            Self::Qas4 => "qas4",
         }
     }
 
@@ -55,8 +68,8 @@ impl SchemeKind {
     pub fn has_rules(self, rules: RuleSet, n: usize) -> bool {
         match (self, rules) {
             (Self::CatmullClark, _) => (2..=MAX_CATMULL_CLARK_VALENCE).contains(&n),
-            (Self::EvolvingGuide, RuleSet::Generated) => n == 3 || (5..=16).contains(&n),
-            (Self::EvolvingGuide, RuleSet::Published) => n == 3 || (5..=10).contains(&n),
+            (_, RuleSet::Generated) => n == 3 || (5..=16).contains(&n),
+            (_, RuleSet::Published) => n == 3 || (5..=10).contains(&n),
         }
     }
 
@@ -64,8 +77,24 @@ impl SchemeKind {
     pub fn valences(self, rules: RuleSet) -> &'static str {
         match (self, rules) {
             (Self::CatmullClark, _) => "2 to 1024",
-            (Self::EvolvingGuide, RuleSet::Generated) => "3 and 5 to 16",
-            (Self::EvolvingGuide, RuleSet::Published) => "3 and 5 to 10",
+            (_, RuleSet::Generated) => "3 and 5 to 16",
+            (_, RuleSet::Published) => "3 and 5 to 10",
+        }
+    }
+
+    /// Whether the scheme carries a quadratic q along, which can be set; curvature is bounded at
+    /// extraordinary points then.
+    pub fn has_quadratic(self) -> bool {
+        matches!(self, Self::Qas3 | Self::Qas4)
+    }
+
+    /// What the scheme's nets are control points of; `None` for Catmull-Clark, which works on
+    /// c-nets.
+    pub fn spline(self) -> Option<Spline> {
+        match self {
+            Self::CatmullClark => None,
+            Self::EvolvingGuide | Self::Pas4 | Self::Qas4 => Some(Spline::BiQuartic),
+            Self::Pas3 | Self::Qas3 => Some(Spline::BiCubic),
         }
     }
 
@@ -74,9 +103,18 @@ impl SchemeKind {
         if !self.has_rules(set, n) {
             return None;
         }
+        let published = set == RuleSet::Published;
         match self {
             Self::CatmullClark => Some(catmull_clark::rules(n)),
-            Self::EvolvingGuide => evolving_guide::rules(n, set == RuleSet::Published),
+            Self::EvolvingGuide => evolving_guide::rules(n, published),
+            Self::Pas3 => {
+                quadratic_attraction::point_augmented_rules(n, Spline::BiCubic, published)
+            }
+            Self::Pas4 => {
+                quadratic_attraction::point_augmented_rules(n, Spline::BiQuartic, published)
+            }
+            Self::Qas3 => quadratic_attraction::rules(n, Spline::BiCubic, published),
+            Self::Qas4 => quadratic_attraction::rules(n, Spline::BiQuartic, published),
         }
     }
 
@@ -84,23 +122,19 @@ impl SchemeKind {
     pub(crate) fn limit_point(self, cnet: &CNet) -> Point {
         match self {
             Self::CatmullClark => cnet.catmull_clark_limit(),
-            Self::EvolvingGuide => cnet.evolving_guide_limit(),
+            _ => cnet.evolving_guide_limit(),
         }
     }
 
-    /// The net on which the rules work, from a c-net relative to its limit point.
+    /// The control net on which the rules work, from a c-net relative to its limit point.
     pub(crate) fn net(self, cnet: &CNet) -> Vec<[f64; 3]> {
-        match self {
-            Self::CatmullClark => cnet.sectors.iter().flatten().copied().collect(),
-            Self::EvolvingGuide => DNet::from_cnet(cnet).sectors.into_iter().flatten().collect(),
-        }
-    }
-
-    /// Whether the rules work on d-nets.
-    pub(crate) fn takes_dnets(self) -> bool {
-        match self {
-            Self::CatmullClark => false,
-            Self::EvolvingGuide => true,
+        match self.spline() {
+            None => cnet.sectors.iter().flatten().copied().collect(),
+            Some(spline) => DNet::from_cnet(cnet, spline).sectors.into_iter().flatten().collect(),
         }
     }
 }
+
+/// Catmull-Clark has rules for every valence; the limit keeps a face with a million corners from
+/// using up the memory.
+const MAX_CATMULL_CLARK_VALENCE: usize = 1024;

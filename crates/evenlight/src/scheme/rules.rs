@@ -13,6 +13,10 @@
 //!
 //! The maps commute with turning by one sector, so a row is written for sector 0 only.
 
+use crate::angle::sector_cosine;
+use crate::net::{Expansion, NodeRef, turned};
+use crate::point::{add, add_scaled};
+
 /// One row of a linear map: weights of nodes, written for sector 0.
 ///
 /// Node `k` of the sector `r` sectors further on is `r * nodes_per_sector + k`.
@@ -46,6 +50,18 @@ pub(crate) struct Rules {
     pub(crate) split: usize,
     /// The BB coefficients of the patches of sector 0.
     pub(crate) patches: Vec<PatchRule>,
+    /// The part of a scheme that carries a quadratic q along.
+    pub(crate) quadratic: Option<QuadraticPart>,
+}
+
+/// How a scheme with a quadratic q begins: the last five nodes of every sector are alpha, beta,
+/// gamma, delta, epsilon of q in that sector's coordinates, the others the control net.
+#[derive(Clone, Debug)]
+pub(crate) struct QuadraticPart {
+    /// The default q of sector 0, as rows on the control net (nodes of q not counted).
+    pub(crate) from_net: [Row; 5],
+    /// The factor by which q is scaled down in each step.
+    pub(crate) lambda: f64,
 }
 
 /// The corners of the three squares that are nearest to the centre.
@@ -64,6 +80,30 @@ impl Rules {
     /// The number of nodes of a net.
     pub(crate) fn num_nodes(&self) -> usize {
         self.valence * self.nodes_per_sector
+    }
+
+    /// The number of nodes per sector without those of q.
+    pub(crate) fn control_nodes_per_sector(&self) -> usize {
+        self.nodes_per_sector - if self.quadratic.is_some() { 5 } else { 0 }
+    }
+
+    /// The default q of a control net; `None` for schemes without q.
+    pub(crate) fn default_quadratic(&self, net: &[[f64; 3]]) -> Option<Expansion> {
+        let turned = Turned { net, by: 0 };
+        self.quadratic.as_ref().map(|part| part.from_net.each_ref().map(|row| turned.apply(row)))
+    }
+
+    /// The control net with the nodes of q, given in sector 0.
+    pub(crate) fn with_quadratic(&self, net: &[[f64; 3]], q: Expansion) -> Vec<[f64; 3]> {
+        let c = sector_cosine(self.valence);
+        let mut q = q;
+        let mut all = Vec::with_capacity(self.num_nodes());
+        for sector in net.chunks(self.control_nodes_per_sector()) {
+            all.extend(sector);
+            all.extend(q);
+            q = turned(c, q);
+        }
+        all
     }
 
     /// The refined net A x.
@@ -117,7 +157,7 @@ impl Rules {
         let (old, new) = (Turned { net: old, by }, Turned { net: new, by });
         let rule = &self.patches[which];
         let rows = rule.old.iter().zip(&rule.new);
-        rows.map(|(a, b)| crate::point::add(old.apply(a), new.apply(b))).collect()
+        rows.map(|(a, b)| add(old.apply(a), new.apply(b))).collect()
     }
 }
 
@@ -134,9 +174,7 @@ impl Turned<'_> {
         for &(node, w) in row {
             let at = node + self.by;
             let at = if at < self.net.len() { at } else { at - self.net.len() };
-            for k in 0..3 {
-                sum[k] += w * self.net[at][k];
-            }
+            add_scaled(&mut sum, w, self.net[at]);
         }
         sum
     }
@@ -160,9 +198,17 @@ impl RowBuilder {
     }
 
     /// Adds weight `w` on node `node` of the sector `turn` sectors further on.
-    pub(crate) fn add(&mut self, at: crate::net::NodeRef, w: f64) {
+    pub(crate) fn add(&mut self, at: NodeRef, w: f64) {
         let r = at.turn.rem_euclid(self.valence as isize) as usize;
         self.weights[r * self.nodes_per_sector + at.node] += w;
+    }
+
+    /// Adds `w` times a row on as many nodes per sector, or fewer, turned by `turn` sectors.
+    pub(crate) fn add_turned(&mut self, row: &Row, nodes_per_sector: usize, turn: isize, w: f64) {
+        for &(at, x) in row {
+            let r = (at / nodes_per_sector) as isize + turn;
+            self.add(NodeRef { turn: r, node: at % nodes_per_sector }, w * x);
+        }
     }
 
     /// Adds `w` times another row.

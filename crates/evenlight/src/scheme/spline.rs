@@ -12,17 +12,8 @@
 //! ```
 
 use super::rules::{PatchRule, Row, RowBuilder};
-use crate::net::dnet_node;
+use crate::net::{Spline, dnet_node};
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, QUARTIC_B_SPLINE_TO_BB};
-
-/// What the nodes of a d-net are control points of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Spline {
-    /// Uniform bi-3 splines with a knot at every half step.
-    BiCubic,
-    /// Bi-4 C2 splines with a knot at every grid line.
-    BiQuartic,
-}
 
 /// The least new indices of the three squares of a ring, in the order of [`Rules`].
 ///

@@ -1,14 +1,12 @@
 //! The cages that the integration tests share.
 #![allow(dead_code, reason = "every test file uses a part of this")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot read its cages fails")]
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use evenlight::io::obj;
 use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions};
-
-/// Everything around valence 2 and above 16 has no Evolving-Guide rules.
-pub const BOTH: [SchemeKind; 2] = SchemeKind::ALL;
 
 fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes")
