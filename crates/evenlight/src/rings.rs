@@ -80,8 +80,8 @@ pub struct Rings {
 }
 
 /// Rings that are kept once they were asked for. A parameter closer to the centre than
-/// 2^-32 is made of the last of them anew, in time proportional to its depth.
-const CACHED_RINGS: usize = 32;
+/// 2^-64 is made of the last of them anew, in time proportional to its depth.
+const CACHED_RINGS: usize = 64;
 
 /// Where X, Y and Z point, and how Z shrinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -221,7 +221,7 @@ impl Rings {
     ///
     /// # Panics
     ///
-    /// If `s` is not below the valence or a, b are not in [0,1].
+    /// If `s` is not below the valence or a, b are not from 0 to 1.
     pub fn eval(&self, s: usize, a: f64, b: f64) -> SurfacePoint {
         assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
         if a.max(b) == 0.0 {

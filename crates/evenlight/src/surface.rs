@@ -83,7 +83,7 @@ pub struct Sector {
     /// The parameters of the extraordinary point in that quad.
     pub center: [f64; 2],
     /// The parameter steps from the centre to the ends of the sector's two lines:
-    /// `center + a * along[0] + b * along[1]` with a and b in [0,1] covers the sector.
+    /// `center + a * along[0] + b * along[1]` with a and b from 0 to 1 covers the sector.
     pub along: [[f64; 2]; 2],
 }
 
@@ -294,7 +294,7 @@ impl Surface {
     }
 
     /// Position, derivatives, normal and curvature at (u,v) of `quad`, which are clamped to
-    /// [0,1]; `None` if the face is omitted, there is no such quad or a parameter is NaN.
+    /// 0..1; `None` if the face is omitted, there is no such quad or a parameter is NaN.
     ///
     /// At an extraordinary point itself the position is the limit point and the normal the
     /// limit normal; derivatives do not exist there and are NaN, nor does curvature but for

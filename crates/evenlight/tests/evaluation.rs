@@ -1,6 +1,8 @@
 //! Evaluation against independent routes: refinement to the end, finite differences, theorems on
 //! deep rings, and the limit at the extraordinary point.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
 mod common;
 
 use std::sync::Arc;
@@ -59,9 +61,7 @@ fn refine_plainly(positions: &[Point], faces: &[Vec<usize>]) -> (Vec<Point>, Vec
             let (a, b) = (face[k % m], face[(k + 1) % m]);
             edge_ids[&(a.min(b), a.max(b))]
         };
-        for k in 0..m {
-            children.push(vec![face[k], edge(k), first_face + f, edge(k + m - 1)]);
-        }
+        children.extend((0..m).map(|k| vec![face[k], edge(k), first_face + f, edge(k + m - 1)]));
     }
     (refined, children)
 }

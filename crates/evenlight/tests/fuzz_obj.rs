@@ -312,7 +312,7 @@ fn monotony_is_read_in_linear_time() {
         // All neighbours of opposite orientation.
         (points(N + 2) + &each(&|k| format!("f {k} {} {}\n", k + 1, k + 2)), false),
     ] {
-        assert_eq!(hold_to_the_contract(text.as_bytes()), is_cage, "{:.60}", text);
+        assert_eq!(hold_to_the_contract(text.as_bytes()), is_cage, "{text:.60}");
     }
     println!("odd megabytes: {:?}", start.elapsed());
 }

@@ -164,8 +164,10 @@ fn matrices_are_as_sparse_as_the_paper_says() {
     ];
     for (scheme, least, most) in expected {
         let spectra = all(scheme, RuleSet::Published).into_iter().filter(|s| s.valence <= 10);
-        let zeros: Vec<f64> = spectra.map(|s| s.zeros_percent.floor()).collect();
-        let range = zeros.iter().fold((100.0_f64, 0.0_f64), |r, &z| (r.0.min(z), r.1.max(z)));
-        assert_eq!(range, (least, most), "{}", scheme.name());
+        let zeros = spectra.map(|s| s.zeros_percent);
+        let range = zeros.fold((100.0_f64, 0.0_f64), |r, z| (r.0.min(z), r.1.max(z)));
+        // Printed as whole numbers, rounded one way or the other.
+        let agree = (range.0 - least).abs() < 1.0 && (range.1 - most).abs() < 1.0;
+        assert!(agree, "{}: {range:?}", scheme.name());
     }
 }

@@ -5,7 +5,7 @@
 //! Sorted by modulus they begin 1, lambda, lambda, mu, ...:
 //!
 //! - lambda simple in the blocks 1 and n-1, with an injective characteristic map: the surface
-//!   is C1 at the extraordinary point [PR08];
+//!   is C1 at the extraordinary point \[PR08\];
 //! - mu = lambda^2: curvature is bounded there; mu > lambda^2: it is not.
 //!
 //! With a quadratic the matrix is block triangular,

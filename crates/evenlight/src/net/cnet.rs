@@ -48,7 +48,7 @@ impl CNet {
         self.sectors.len()
     }
 
-    /// The limit of e under Catmull-Clark subdivision [HKD93]:
+    /// The limit of e under Catmull-Clark subdivision \[HKD93\]:
     /// (n e + 4/n sum c_6 + 1/n sum c_5) / (n + 5).
     pub fn catmull_clark_limit(&self) -> Point {
         let n = self.valence() as f64;

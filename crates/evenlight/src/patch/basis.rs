@@ -51,7 +51,7 @@ fn at(b: &[f64], i: usize, back: usize) -> f64 {
     if i < back { 0.0 } else { b[i - back] }
 }
 
-/// The four uniform cubic B-splines that are alive on [0,1]: values and derivatives.
+/// The four uniform cubic B-splines that are alive on 0 <= t <= 1: values and derivatives.
 pub fn cubic_b_spline(t: f64) -> BasisJet<4> {
     let s = 1.0 - t;
     [

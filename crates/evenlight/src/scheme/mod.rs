@@ -1,6 +1,6 @@
 //! The schemes: which linear rules make the rings around an extraordinary point.
 //!
-//! A scheme is a pair of linear maps per valence ([`rules`]): net to refined net, and both to a
+//! A scheme is a pair of linear maps per valence (module `rules`): net to refined net, and both to a
 //! ring of Bernstein-Bezier patches. Nothing here knows a mesh.
 
 mod catmull_clark;
@@ -20,7 +20,7 @@ use crate::point::Point;
 /// Which subdivision scheme makes the surface around extraordinary points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SchemeKind {
-    /// Catmull-Clark subdivision [CC78]: bi-3 rings, C1 at the centre, unbounded curvature there.
+    /// Catmull-Clark subdivision \[CC78\]: bi-3 rings, C1 at the centre, unbounded curvature there.
     CatmullClark,
     /// Evolving-Guide subdivision [KP23-EG]: bi-4 rings, C1 at the centre, without pinching.
     EvolvingGuide,
