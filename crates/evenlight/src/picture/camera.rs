@@ -79,6 +79,11 @@ pub(super) struct Camera {
     pub size: [usize; 2],
 }
 
+/// Pixels per length of the largest coordinate at which rounding (1e-16 of it) is still far below
+/// a pixel. Closer, or where a whole surface is no larger than rounding, a picture would show
+/// noise, and cutting it into flat cells would not end.
+const FINEST_SCALE: f64 = 1e13;
+
 impl Camera {
     /// The camera of `view` for a panel of `size` pixels, such that `points` fill the panel at
     /// zoom 1.
@@ -90,6 +95,10 @@ impl Camera {
         let ratio = |k: usize| FILL * size[k] as f64 / (high[k] - low[k]);
         let fitted = ratio(0).min(ratio(1));
         camera.scale = if fitted.is_finite() { view.zoom * fitted } else { view.zoom };
+        let largest = low.iter().chain(&high).fold(0.0_f64, |m, x| m.max(x.abs()));
+        if largest > 0.0 {
+            camera.scale = camera.scale.min(FINEST_SCALE / largest);
+        }
         camera
     }
 
@@ -228,5 +237,12 @@ mod tests {
             let camera = Camera::fit(&View::default(), points, [10, 10]);
             assert!(camera.scale.is_finite() && camera.scale > 0.0);
         }
+    }
+
+    #[test]
+    fn what_is_no_larger_than_rounding_stays_small() {
+        let points = [[1.0, 2.0, 3.0], [1.0 + 2e-16, 2.0, 3.0]];
+        let camera = Camera::fit(&View::default(), &points, [1000, 1000]);
+        assert!(camera.scale * 2e-16 < 0.01);
     }
 }
