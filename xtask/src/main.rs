@@ -5,7 +5,10 @@
 
 #[cfg(feature = "library")]
 mod bench;
+#[cfg(feature = "library")]
+mod demo_cage;
 mod tables;
+mod tidy;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -19,7 +22,10 @@ use clap::Parser;
 enum Chore {
     #[cfg(feature = "library")]
     Bench(bench::Arguments),
+    #[cfg(feature = "library")]
+    DemoCage(demo_cage::Arguments),
     Tables(tables::Arguments),
+    Tidy(tidy::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -36,7 +42,10 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
     match chore {
         #[cfg(feature = "library")]
         Chore::Bench(arguments) => bench::run(arguments),
+        #[cfg(feature = "library")]
+        Chore::DemoCage(arguments) => demo_cage::run(arguments),
         Chore::Tables(arguments) => tables::run(arguments),
+        Chore::Tidy(arguments) => tidy::run(arguments),
     }
 }
 
