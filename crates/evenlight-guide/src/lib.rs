@@ -65,6 +65,7 @@ pub mod characteristic;
 pub mod emit;
 pub mod evolving_guide;
 pub mod guide;
+pub mod guided;
 pub mod jet;
 pub mod linear;
 pub mod nets;

@@ -1,0 +1,34 @@
+//! Guided C2 subdivision: the derivation.
+//!
+//! A guided surface [KP18-Guided] around an extraordinary point is decided on in two steps. First
+//! a *guide*, n bi-5 pieces that join with curvature continuity and need not meet the surrounding
+//! surface; then an infinite sequence of *rings* of patches that join each other and the
+//! surrounding surface with continuous second derivatives, and take everything else from the guide:
+//! ring l samples it at lambda^l chi, chi being a characteristic ring and lambda its eigenvalue.
+//!
+//! ```text
+//!    c-net ----------------> outer border of ring 0 ---.
+//!      |                                               v
+//!      '--> guide g (fit) --> jets of g(chi^T) --> ring 0   C2   ring 1   C2   ring 2  ...
+//!                                |                               ^             ^
+//!                                '--- g shrunk by lambda --------'-------------'
+//! ```
+//!
+//! - [`space`]: the G2 guides of valence n, the direct sum of the eigenspaces of the subdivision;
+//!   [`determining`] has the paper's explicit formulas for them.
+//! - [`net`]: the c-net, its centre and the second-order data of the surrounding surface.
+//! - [`characteristic`]: chi, for Catmull-Clark subdivision and for any other speed lambda.
+//! - [`bb`]: univariate Bernstein-Bezier tools.
+//!
+//! Sectors and lines are as everywhere in this crate: sector s lies between line s-1, along which
+//! u runs, and line s, along which v runs. A patch of bi-degree d has its coefficients b_ij in the
+//! order i (d + 1) + j, i along u.
+//!
+//! \[KP18-Guided\] K. Karciauskas, J. Peters: A New Class of Guided C2 Subdivision Surfaces Combining
+//! Good Shape with Nested Refinement. Computer Graphics Forum 37, 2018, doi 10.1111/cgf.13313.
+
+pub mod bb;
+pub mod characteristic;
+pub mod determining;
+pub mod net;
+pub mod space;
