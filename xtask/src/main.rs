@@ -7,6 +7,8 @@
 mod bench;
 #[cfg(feature = "library")]
 mod demo_cage;
+#[cfg(feature = "library")]
+mod pictures;
 mod tables;
 mod tidy;
 
@@ -24,6 +26,8 @@ enum Chore {
     Bench(bench::Arguments),
     #[cfg(feature = "library")]
     DemoCage(demo_cage::Arguments),
+    #[cfg(feature = "library")]
+    Pictures(pictures::Arguments),
     Tables(tables::Arguments),
     Tidy(tidy::Arguments),
 }
@@ -44,6 +48,8 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
         Chore::Bench(arguments) => bench::run(arguments),
         #[cfg(feature = "library")]
         Chore::DemoCage(arguments) => demo_cage::run(arguments),
+        #[cfg(feature = "library")]
+        Chore::Pictures(arguments) => pictures::run(arguments),
         Chore::Tables(arguments) => tables::run(arguments),
         Chore::Tidy(arguments) => tidy::run(arguments),
     }

@@ -125,7 +125,8 @@ fn check_layers(name: &str, inside: &str, text: &str, faults: &mut Vec<String>) 
     let Some(own) = layer(module) else { return };
     let code = text.split("#[cfg(test)]").next().unwrap_or_default();
     for used in code.split("crate::").skip(1) {
-        let used = used.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
+        let used =
+            used.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
         if layer(used).is_some_and(|other| other > own) {
             faults.push(format!("{name}: `{module}` uses `{used}`, which lies above it"));
         }

@@ -1,0 +1,156 @@
+//! `cargo xtask pictures`: the pictures of the README and the docs, all made by the library.
+//!
+//! They are written to `crates/evenlight/docs/pictures`. `--check` tells only whether all are
+//! there: the bytes of a picture may differ in the last bit of a colour where sine and power
+//! functions round differently.
+
+use std::error::Error;
+use std::fs;
+use std::sync::Arc;
+
+use evenlight::io::obj;
+use evenlight::net::Quadratic;
+use evenlight::picture::{Picture, RenderOptions, Style, View, compare, render};
+use evenlight::point::{add, scale};
+use evenlight::{Cage, RuleSet, SchemeKind, Surface, SurfaceOptions};
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+/// The pictures and what makes them.
+const PICTURES: [(&str, fn() -> Result<Picture>); 5] = [
+    ("chair.png", chair),
+    ("pinch.png", pinch),
+    ("family.png", family),
+    ("quadratic.png", quadratic),
+    ("patches.png", patches),
+];
+
+/// Draw the pictures of the README and the docs.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Only check that all pictures are there
+    #[arg(long)]
+    check: bool,
+}
+
+/// Draws or checks all pictures.
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let folder = super::workspace("crates/evenlight/docs/pictures");
+    for (name, make) in PICTURES {
+        let path = folder.join(name);
+        if arguments.check {
+            let bytes =
+                fs::read(&path).map_err(|e| format!("{name}: {e}; run cargo xtask pictures"))?;
+            if !bytes.starts_with(b"\x89PNG") {
+                return Err(format!("{name} is no picture; run cargo xtask pictures").into());
+            }
+        } else {
+            let mut bytes = Vec::new();
+            make()?.write_png(&mut bytes)?;
+            println!("{name}: {} kB", bytes.len() / 1000);
+            fs::write(&path, bytes)?;
+        }
+    }
+    Ok(())
+}
+
+fn cage(path: &str) -> Result<Arc<Cage>> {
+    let (cage, _) = obj::read_cage(&fs::read(super::workspace(path))?)?;
+    Ok(Arc::new(cage))
+}
+
+fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface> {
+    Ok(Surface::build(cage.clone(), SurfaceOptions { scheme, rules: RuleSet::Generated })?)
+}
+
+/// The demo object, as the first thing of the README.
+fn chair() -> Result<Picture> {
+    let surface = surface(&cage("crates/evenlight-cli/assets/demo.obj")?, SchemeKind::Qas4)?;
+    let view = View { azimuth: 35.0, elevation: 30.0, ..View::default() };
+    let options = RenderOptions { size: [1000, 800], view, ..RenderOptions::default() };
+    Ok(render(&surface, &options)?)
+}
+
+/// Highlight lines over the extraordinary point of a saddle of valence 8, near it.
+fn pinch() -> Result<Picture> {
+    highlight_lines(
+        "data/meshes/obstacle/saddle_n8.obj",
+        &[SchemeKind::CatmullClark, SchemeKind::EvolvingGuide, SchemeKind::Qas4],
+        8.0,
+    )
+}
+
+/// The schemes of the family on one cage.
+fn family() -> Result<Picture> {
+    highlight_lines(
+        "data/meshes/obstacle/ridges_n7.obj",
+        &[SchemeKind::EvolvingGuide, SchemeKind::Qas4, SchemeKind::Qas3],
+        1.5,
+    )
+}
+
+fn highlight_lines(path: &str, schemes: &[SchemeKind], zoom: f64) -> Result<Picture> {
+    let cage = cage(path)?;
+    let surfaces: Vec<Surface> =
+        schemes.iter().map(|&scheme| surface(&cage, scheme)).collect::<Result<_>>()?;
+    let panels: Vec<(&str, &Surface)> =
+        surfaces.iter().map(|s| (s.options().scheme.name(), s)).collect();
+    let view = View::toward(&surfaces[0], 0).ok_or("the first point has no normal")?;
+    let options = RenderOptions {
+        style: Style::Highlight,
+        size: [400 * schemes.len(), 400],
+        view: View { zoom: zoom * view.zoom, ..view },
+        ..RenderOptions::default()
+    };
+    Ok(compare(&panels, &options)?)
+}
+
+/// A monkey saddle with its default quadratic and with three others: lifted, tilted, and bent.
+fn quadratic() -> Result<Picture> {
+    let cage = cage("data/meshes/obstacle/monkey_n6.obj")?;
+    let default = surface(&cage, SchemeKind::Qas4)?;
+    let q = *default.rings(0).quadratic().ok_or("qas4 has a quadratic")?;
+    let normal = default.rings(0).normal();
+    let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let lifted = q.transformed(identity, scale(0.7, normal));
+    let about_center = |matrix: [[f64; 3]; 3]| {
+        let image = q.transformed(matrix, [0.0; 3]).center();
+        let back = [0, 1, 2].map(|k| q.center()[k] - image[k]);
+        q.transformed(matrix, back)
+    };
+    let tilted = about_center([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.2, 0.0, 1.0]]);
+    let mut bent = q;
+    for k in [2, 5] {
+        bent.coefs[k] = add(bent.coefs[k], scale(0.25, normal));
+    }
+    let with = |q: &Quadratic| -> Result<Surface> {
+        let mut surface = surface(&cage, SchemeKind::Qas4)?;
+        surface.set_quadratic(0, q);
+        Ok(surface)
+    };
+    let others = [("lifted", with(&lifted)?), ("tilted", with(&tilted)?), ("bent", with(&bent)?)];
+    let mut panels = vec![("default q", &default)];
+    panels.extend(others.iter().map(|(name, surface)| (*name, surface)));
+    let view = View { azimuth: 20.0, elevation: 40.0, zoom: 1.6, target: Some(q.center()) };
+    let options = RenderOptions { size: [1400, 350], view, ..RenderOptions::default() };
+    Ok(compare(&panels, &options)?)
+}
+
+/// The layout of patches in the three degrees and splittings.
+fn patches() -> Result<Picture> {
+    let cage = cage("data/meshes/obstacle/saddle_n6.obj")?;
+    let surfaces: Vec<Surface> = [SchemeKind::CatmullClark, SchemeKind::Qas4, SchemeKind::Qas3]
+        .into_iter()
+        .map(|scheme| surface(&cage, scheme))
+        .collect::<Result<_>>()?;
+    let panels: Vec<(&str, &Surface)> =
+        surfaces.iter().map(|s| (s.options().scheme.name(), s)).collect();
+    let view = View { azimuth: 30.0, elevation: 50.0, ..View::default() };
+    let options = RenderOptions {
+        style: Style::Patches,
+        size: [1200, 400],
+        view,
+        ..RenderOptions::default()
+    };
+    Ok(compare(&panels, &options)?)
+}
