@@ -1,4 +1,74 @@
 //! Fair subdivision surfaces from quad meshes.
+//!
+//! A *cage* is a mesh of quads (and, if need be, other polygons) as people model with. Where it
+//! is regular, its surface is a bi-cubic spline, one patch per face. Around *extraordinary
+//! points* (interior vertices of valence other than 4, centres of n-gons) the surface is an
+//! infinite sequence of ever smaller rings of patches, made by one of several *schemes*.
+//!
+//! # A tour along the pipeline
+//!
+//! Read a cage and check it; all faults are named.
+//!
+//! ```
+//! use std::sync::Arc;
+//! use evenlight::io::obj;
+//!
+//! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
+//!             f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+//! let (cage, notices) = obj::read_cage(text.as_bytes())?;
+//! assert!(notices.is_empty());
+//! assert_eq!(cage.interior_valences(), [(3, 8)].into());
+//!
+//! // Build a surface over it.
+//! use evenlight::{RuleSet, SchemeKind, Surface, SurfaceOptions};
+//!
+//! let options = SurfaceOptions { scheme: SchemeKind::Qas4, rules: RuleSet::Generated };
+//! let surface = Surface::build(Arc::new(cage), options)?;
+//! assert_eq!(surface.extraordinary_points().len(), 8);
+//!
+//! // Ask it anything at (face, u, v): here the corner of the cube, where three faces meet.
+//! use evenlight::FaceId;
+//!
+//! let quad = surface.quad(FaceId(1), 0).expect("face 1 is a quad");
+//! let corner = surface.eval(quad, 1.0, 1.0).expect("the cage has no boundary");
+//! let [x, y, z] = corner.normal;
+//! assert!((x - y).abs() < 1e-14 && (y - z).abs() < 1e-14, "the corner looks outwards");
+//! assert!(corner.gauss > 0.0, "qas4 has a curvature there too");
+//!
+//! // Take the polynomials: regular patches and the first six rings.
+//! let patches: Vec<_> = surface.patches(6).collect();
+//! assert_eq!(patches.len(), 6 * (4 * 6 * 3), "6 faces of 4 sectors, 6 rings of 3 patches");
+//!
+//! // Or triangles, or a report.
+//! use evenlight::{analyse::curvature::curvature_report, tessellate::tessellate};
+//!
+//! let triangles = tessellate(&surface, 8)?;
+//! assert_eq!(triangles.triangles.len(), 6 * 8 * 8 * 2);
+//! let report = curvature_report(&surface, 6);
+//! assert!(report.jumps.parametric < 1e-11, "all patches join C2");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Modules in pipeline order
+//!
+//! | module | |
+//! | --- | --- |
+//! | [`point`] | points and vectors |
+//! | [`patch`] | Bernstein-Bezier patches, jets |
+//! | [`mesh`] | cages, connectivity, isolation of extraordinary points |
+//! | [`net`] | control nets around one extraordinary point, the quadratic q |
+//! | [`scheme`] | which rules there are |
+//! | [`rings`] | the surface around one extraordinary point at any depth |
+//! | [`surface`] | the whole surface |
+//! | [`tessellate`] | triangles |
+//! | [`analyse`] | curvature, continuity, highlight lines, spectra |
+//! | [`io`] | OBJ, PLY, STL, BezierView |
+//! | `picture` (feature) | pictures with exact normals |
+//!
+//! # What is not promised
+//!
+//! Faces at a boundary have no surface yet. A surface may intersect itself if its cage does.
+//! Coordinates near the ends of the range of `f64` may overflow in derivatives.
 
 pub mod analyse;
 mod angle;
@@ -20,3 +90,8 @@ pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
 pub use scheme::{RuleSet, SchemeKind};
 pub use surface::{QuadId, Surface, SurfaceOptions};
+
+/// The examples of the README are tested.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -31,8 +31,8 @@ use crate::scheme::{RuleSet, SchemeKind};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct QuadId(pub u32);
 
-/// How a surface is built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How a surface is built; by default with `qas4` at full precision.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SurfaceOptions {
     /// The scheme at extraordinary points.
     pub scheme: SchemeKind,
