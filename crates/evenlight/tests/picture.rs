@@ -8,7 +8,7 @@ use evenlight::picture::{Picture, PictureError, RenderOptions, Style, View, comp
 use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions, io};
 
 /// What is drawn does not depend on more than the interface, so two schemes tell enough.
-const SCHEMES: [SchemeKind; 2] = [SchemeKind::CatmullClark, SchemeKind::EvolvingGuide];
+const SCHEMES: [SchemeKind; 6] = SchemeKind::ALL;
 
 fn load(name: &str, scheme: SchemeKind) -> Surface {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes/obstacle").join(name);

@@ -1,0 +1,155 @@
+//! Random cages: whatever passes the checks gives a surface or a clear error, in every scheme,
+//! and the surface is C2 where it should be.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::Random;
+use evenlight::analyse::continuity::continuity;
+use evenlight::surface::QuadId;
+use evenlight::tessellate::tessellate;
+use evenlight::{Cage, Mesh, Point, SchemeKind, Surface};
+
+/// A mesh under random changes of its faces.
+#[derive(Clone)]
+struct Sculpture {
+    positions: Vec<Point>,
+    faces: Vec<Vec<u32>>,
+}
+
+impl Sculpture {
+    fn torus() -> Self {
+        let mesh = common::torus(7, 5);
+        let faces = mesh.faces.iter().map(|f| f.iter().map(|v| v.0).collect()).collect();
+        Self { positions: mesh.positions, faces }
+    }
+
+    fn cage(&self) -> Option<Cage> {
+        Cage::new(Mesh::new(self.positions.clone(), &self.faces)).ok()
+    }
+
+    /// One random change; what it leads to may not be a cage.
+    fn change(&mut self, random: &mut Random) {
+        match random.below(5) {
+            0 => self.cut(random),
+            1 => self.join(random),
+            2 => self.poke(random),
+            3 => self.remove(random),
+            _ => self.jitter(random),
+        }
+    }
+
+    /// Cuts a face along a diagonal.
+    fn cut(&mut self, random: &mut Random) {
+        let f = random.below(self.faces.len());
+        let mut face = self.faces[f].clone();
+        if face.len() < 4 {
+            return;
+        }
+        let turn = random.below(face.len());
+        face.rotate_left(turn);
+        let k = 2 + random.below(face.len() - 3);
+        self.faces[f] = face[..=k].to_vec();
+        self.faces.push([&face[k..], &face[..1]].concat());
+    }
+
+    /// Joins a face with one that shares an edge.
+    fn join(&mut self, random: &mut Random) {
+        let f = random.below(self.faces.len());
+        let mut face = self.faces[f].clone();
+        let turn = random.below(face.len());
+        face.rotate_left(turn);
+        let (a, b) = (face[0], face[face.len() - 1]);
+        let follows = |g: &Vec<u32>| (0..g.len()).find(|&k| g[k] == a && g[(k + 1) % g.len()] == b);
+        let other = (0..self.faces.len()).find(|&g| g != f && follows(&self.faces[g]).is_some());
+        let Some(g) = other else { return };
+        let mut neighbour = self.faces[g].clone();
+        let start = follows(&neighbour).unwrap_or(0);
+        neighbour.rotate_left(start + 1);
+        // The neighbour now begins with b and ends with a.
+        neighbour.pop();
+        face.extend(&neighbour[1..]);
+        self.faces[f] = face;
+        self.faces.swap_remove(g);
+    }
+
+    /// Puts a vertex into a face.
+    fn poke(&mut self, random: &mut Random) {
+        let f = random.below(self.faces.len());
+        let face = self.faces.swap_remove(f);
+        let n = face.len() as f64;
+        let middle =
+            [0, 1, 2].map(|k| face.iter().map(|&v| self.positions[v as usize][k]).sum::<f64>() / n);
+        self.positions.push(middle);
+        let v = self.positions.len() as u32 - 1;
+        for k in 0..face.len() {
+            self.faces.push(vec![face[k], face[(k + 1) % face.len()], v]);
+        }
+    }
+
+    fn remove(&mut self, random: &mut Random) {
+        if random.below(4) == 0 {
+            self.faces.swap_remove(random.below(self.faces.len()));
+        }
+    }
+
+    fn jitter(&mut self, random: &mut Random) {
+        let v = random.below(self.positions.len());
+        self.positions[v].iter_mut().for_each(|x| *x += random.unit() - 0.5);
+    }
+}
+
+fn check(cage: &Arc<Cage>, seed: u64) {
+    let mut random = Random::new(seed);
+    for scheme in SchemeKind::ALL {
+        let Ok(surface) = Surface::build(cage.clone(), common::options(scheme)) else {
+            assert_ne!(
+                scheme,
+                SchemeKind::CatmullClark,
+                "seed {seed}: valence 2 to 1024 has rules"
+            );
+            continue;
+        };
+        for _ in 0..20 {
+            if surface.num_quads() == 0 {
+                break;
+            }
+            let quad = QuadId(random.below(surface.num_quads()) as u32);
+            let found = surface.eval(quad, random.unit(), random.unit());
+            assert_eq!(found.is_none(), surface.is_omitted(surface.face_of(quad).0));
+            assert!(found.is_none_or(|p| p.jet.p.iter().all(|x| x.is_finite())), "seed {seed}");
+        }
+        let jumps = continuity(&surface, 2, 1).all;
+        assert!(jumps.parametric < 1e-9, "seed {seed}, {}: {jumps:?}", scheme.name());
+        let triangles = tessellate(&surface, 2).expect("few triangles");
+        assert!(triangles.positions.iter().flatten().all(|x| x.is_finite()));
+    }
+}
+
+/// Sculptures of many changes, each step of which was a cage.
+fn sculpt(seeds: std::ops::Range<u64>) {
+    for seed in seeds {
+        let (mut sculpture, mut random) = (Sculpture::torus(), Random::new(seed + 1));
+        let mut cage = sculpture.cage().expect("a torus is a cage");
+        for _ in 0..1 + random.below(40) {
+            let mut changed = sculpture.clone();
+            changed.change(&mut random);
+            if let Some(new) = changed.cage() {
+                (sculpture, cage) = (changed, new);
+            }
+        }
+        check(&Arc::new(cage), seed);
+    }
+}
+
+#[test]
+fn random_cages_give_surfaces() {
+    sculpt(0..150);
+}
+
+#[test]
+#[ignore = "slow: some minutes"]
+fn ten_thousand_random_cages_give_surfaces() {
+    sculpt(0..10_000);
+}
