@@ -18,6 +18,8 @@
 //!   [`determining`] has the paper's explicit formulas for them.
 //! - [`net`]: the c-net, its centre and the second-order data of the surrounding surface.
 //! - [`characteristic`]: chi, for Catmull-Clark subdivision and for any other speed lambda.
+//! - [`composition`]: jets of a guide composed with a map.
+//! - [`rings`]: the rings in degree bi-6, bi-5, bi-4 and bi-3 ([`pieces`]).
 //! - [`bb`]: univariate Bernstein-Bezier tools.
 //!
 //! Sectors and lines are as everywhere in this crate: sector s lies between line s-1, along which
@@ -29,6 +31,9 @@
 
 pub mod bb;
 pub mod characteristic;
+pub mod composition;
 pub mod determining;
 pub mod net;
+pub mod pieces;
+pub mod rings;
 pub mod space;
