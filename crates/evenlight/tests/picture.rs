@@ -7,8 +7,6 @@ use std::path::Path;
 use evenlight::picture::{Picture, PictureError, RenderOptions, Style, View, compare, render};
 use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions, io};
 
-/// What is drawn does not depend on more than the interface, so two schemes tell enough.
-
 fn load(name: &str, scheme: SchemeKind) -> Surface {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes/obstacle").join(name);
     let bytes = std::fs::read(path).expect("the cage is in data/meshes");
