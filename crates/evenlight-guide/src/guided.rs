@@ -20,6 +20,7 @@
 //! - [`characteristic`]: chi, for Catmull-Clark subdivision and for any other speed lambda.
 //! - [`composition`]: jets of a guide composed with a map.
 //! - [`rings`]: the rings in degree bi-6, bi-5, bi-4 and bi-3 ([`pieces`]).
+//! - [`fit`]: the guide of a c-net, the fairest by the measures of [`fairness`].
 //! - [`bb`]: univariate Bernstein-Bezier tools.
 //!
 //! Sectors and lines are as everywhere in this crate: sector s lies between line s-1, along which
@@ -33,6 +34,8 @@ pub mod bb;
 pub mod characteristic;
 pub mod composition;
 pub mod determining;
+pub mod fairness;
+pub mod fit;
 pub mod net;
 pub mod pieces;
 pub mod rings;

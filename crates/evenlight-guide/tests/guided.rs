@@ -3,6 +3,7 @@
 
 use evenlight_guide::guided::characteristic::{CharacteristicRing, SQUARES, Square, sigma_of};
 use evenlight_guide::guided::determining::{FREE_PLACES, FreeCoefs, guide};
+use evenlight_guide::guided::fit::{generating_matrix, guide as fitted_guide};
 use evenlight_guide::guided::net::CNet;
 use evenlight_guide::guided::rings::{Form, Rings};
 use evenlight_guide::linear::Matrix;
@@ -126,6 +127,17 @@ fn rings_of_a_given_guide() {
             let what = format!("{key}, n = {n}");
             assert_near(&found, &matrix(&golden[key], 1), 1e-12, &what);
         }
+    }
+}
+
+#[test]
+fn the_fitted_guide() {
+    for n in VALENCES {
+        let golden = golden(n);
+        let generating = generating_matrix(&CharacteristicRing::catmull_clark(n));
+        let found = fitted_guide(&generating, n, &net(n, &golden));
+        let expected = matrix(&golden["guide"], 3);
+        assert_near(&found, &expected, 1e-11, &format!("guide, n = {n}"));
     }
 }
 

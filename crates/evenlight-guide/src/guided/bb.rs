@@ -1,6 +1,6 @@
 //! Univariate Bernstein-Bezier tools of any degree: Taylor data, degree raising, restriction.
 //!
-//! A polynomial of degree d on [0,1] is the column of its coefficients b_0..b_d. Everything here is
+//! A polynomial of degree d on `[0,1]` is the column of its coefficients b_0..b_d. Everything here is
 //! a matrix on such columns; a patch of bi-degree d, numbered i (d + 1) + j with i along u and j
 //! along v, is treated by Kronecker products of two of them.
 
@@ -89,7 +89,7 @@ pub fn raise(from: usize, to: usize) -> Matrix {
     })
 }
 
-/// De Casteljau: the coefficients over [a,b], with parameter again in [0,1].
+/// De Casteljau: the coefficients over `[a,b]`, with parameter again in `[0,1]`.
 ///
 /// Coefficient i is the blossom at d - i times a and i times b.
 pub fn restrict(degree: usize, a: Real, b: Real) -> Matrix {

@@ -2,14 +2,14 @@
 //!
 //! Catmull-Clark subdivision around an extraordinary point inserts a knot half way between the
 //! point and the first knot line. Inserting it at sigma instead, 0 < sigma < 1, gives a family of
-//! subdivisions whose rings are [sigma,1]^2-shaped and whose subdominant eigenvalue, the larger
+//! subdivisions whose rings are L-shaped and whose subdominant eigenvalue, the larger
 //! root of
 //!
 //! ```text
 //! lambda^2 - sigma (1 + sigma^2 + c (1 - sigma)^2) lambda + sigma^4 = 0,   c = cos(2 pi / n),
 //! ```
 //!
-//! is the speed at which rings contract [KP18-Guided, sec. 6.3, after KP09]. sigma = 1/2 is
+//! is the speed at which rings contract [KP18-Guided, sec. 6.3]. sigma = 1/2 is
 //! Catmull-Clark subdivision itself; at every valence some sigma has lambda = 1/2.
 //!
 //! The eigenvectors of lambda are a planar c-net, and the net a ring chi of three bi-3 patches per
@@ -29,7 +29,7 @@
 //! of the guide. It is scaled such that the ends of the outer border, chi(1,0) and chi(0,1), are
 //! (1,0) and (0,1).
 //!
-//! DIFFERENCE: the paper takes its other speeds from [KP09], which we have not seen; the family by
+//! DIFFERENCE: the paper takes its other speeds from \[KP09\], which we have not seen; the family by
 //! knot insertion at sigma is our reading.
 
 use crate::guided::bb::power;
@@ -40,11 +40,11 @@ use crate::real::Real;
 /// A square of a ring, in the drawing of the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Square {
-    /// Along the first line of the sector, [sigma,1] x [0,sigma].
+    /// Along the first line of the sector, `[sigma,1] x [0,sigma]`.
     A,
-    /// At the outer corner, [sigma,1] x [sigma,1].
+    /// At the outer corner, `[sigma,1] x [sigma,1]`.
     B,
-    /// Along the second line, [0,sigma] x [sigma,1].
+    /// Along the second line, `[0,sigma] x [sigma,1]`.
     C,
 }
 

@@ -1,6 +1,6 @@
 //! Rings of lower degree: a segment of degree 5 replaced by a spline of degree 4 or 3.
 //!
-//! A quintic on [0,1] is given by position, first and second derivative at both ends, six numbers.
+//! A quintic on `[0,1]` is given by position, first and second derivative at both ends, six numbers.
 //! So are the splines
 //!
 //! ```text
