@@ -15,17 +15,26 @@
 //! pieces ([`isolation`](crate::mesh::isolation)). Evaluation finds the piece and its own
 //! parameters; all pieces are parts of one surface.
 
-use std::collections::BTreeMap;
+mod build;
+mod place;
+
+pub use build::SurfaceError;
+pub use place::{PatchPlace, PlacedPatch, Role};
+
 use std::sync::Arc;
 
-use crate::mesh::isolation::{CORNERS, Piece, Place, Plan, cnet_vertices};
+use crate::mesh::isolation::{CORNERS, Piece, Plan};
 use crate::mesh::{Cage, FaceId, VertexId};
-use crate::net::{CNet, Quadratic};
+use crate::net::Quadratic;
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::{Jet, Patch, SurfacePoint};
-use crate::point::{Point, Vector, add_scaled, scale};
-use crate::rings::{Rings, ValenceRules};
+use crate::point::{Point, Vector, add_scaled};
+use crate::rings::Rings;
 use crate::scheme::{RuleSet, SchemeKind};
+use build::{describe, gather, refined_positions, rules_by_valence};
+use place::{
+    RingPatch, Source, Square, from_sector, quadrant, ring_domain, to_sector, turned_patch,
+};
 
 /// The number of a parametric quad: all quads of face 0, then of face 1, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -85,115 +94,6 @@ pub struct Sector {
     /// The parameter steps from the centre to the ends of the sector's two lines:
     /// `center + a * along[0] + b * along[1]` with a and b from 0 to 1 covers the sector.
     pub along: [[f64; 2]; 2],
-}
-
-/// What a patch is part of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Role {
-    /// A bi-3 patch whose four corners are regular.
-    Regular,
-    /// A patch of ring `k` around an extraordinary point, counted from 1.
-    Ring(usize),
-}
-
-/// Where a polynomial patch lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PatchPlace {
-    /// What it is part of.
-    pub role: Role,
-    /// The parametric quad that it lies in.
-    pub quad: QuadId,
-    /// The part of that quad: [[u0, u1], [v0, v1]]; the patch's own (u,v) runs over it in the
-    /// same directions.
-    pub domain: [[f64; 2]; 2],
-    /// The extraordinary point it belongs to, as an index into
-    /// [`Surface::extraordinary_points`]; `None` for regular patches.
-    pub point: Option<usize>,
-    /// The sector of that point, from 0.
-    pub sector: Option<usize>,
-    source: Source,
-}
-
-/// What a patch is made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Source {
-    /// The number of its control net.
-    Net(u32),
-    /// Patch `which` of a sector of a ring, the sector's square in the quad and the corner of
-    /// the square at which the extraordinary point is.
-    Ring { which: usize, square: Square, corner: u8 },
-}
-
-/// One polynomial patch of the surface and where it lies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlacedPatch {
-    /// What it is part of.
-    pub role: Role,
-    /// The parametric quad that it lies in.
-    pub quad: QuadId,
-    /// The part of that quad: [[u0, u1], [v0, v1]]; the patch's own (u,v) runs over it in the
-    /// same directions.
-    pub domain: [[f64; 2]; 2],
-    /// The extraordinary point it belongs to, as an index into
-    /// [`Surface::extraordinary_points`]; `None` for regular patches.
-    pub point: Option<usize>,
-    /// The sector of that point, from 0.
-    pub sector: Option<usize>,
-    /// The polynomial.
-    pub patch: Patch,
-}
-
-/// Why no surface could be built.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SurfaceError {
-    /// The scheme has no rules for the valence of these points.
-    #[error(
-        "scheme {} has {}rules for valences {}, but {}; {}",
-        scheme.name(),
-        if *rules == RuleSet::Published { "published " } else { "" },
-        scheme.valences(*rules),
-        list_places(points),
-        advice(*scheme, *rules, points)
-    )]
-    NoRules {
-        /// The points and their valences.
-        points: Vec<(Place, usize)>,
-        /// The scheme.
-        scheme: SchemeKind,
-        /// Its tables.
-        rules: RuleSet,
-    },
-}
-
-/// What to do about points without rules.
-fn advice(scheme: SchemeKind, rules: RuleSet, points: &[(Place, usize)]) -> String {
-    let mut ways = Vec::new();
-    if points.iter().any(|&(_, valence)| valence > 2) {
-        ways.push("split such a vertex or face into several of lower valence");
-    }
-    if points.iter().any(|&(_, valence)| valence == 2) {
-        ways.push("dissolve vertices with two edges into their faces");
-    }
-    if rules == RuleSet::Published {
-        ways.push("use the generated rules");
-    }
-    if scheme != SchemeKind::CatmullClark {
-        ways.push("use scheme cc");
-    }
-    ways.join(", or ")
-}
-
-/// The points of an error message, 1-based as in files, at most eight of them.
-fn list_places(points: &[(Place, usize)]) -> String {
-    let name = |&(place, valence): &(Place, usize)| match place {
-        Place::Vertex(v) => format!("vertex {} has valence {valence}", v.0 + 1),
-        Place::FaceCentre(f) => format!("face {} has {valence} corners", f.0 + 1),
-    };
-    let mut names: Vec<String> = points.iter().take(8).map(name).collect();
-    if points.len() > names.len() {
-        names.push(format!("{} more", points.len() - names.len()));
-    }
-    names.join(", ")
 }
 
 impl Surface {
@@ -350,12 +250,11 @@ impl Surface {
 
     /// The polynomial of a patch.
     pub fn patch(&self, place: &PatchPlace) -> Patch {
-        match (place.source, place.point, place.sector, place.role) {
-            (Source::Ring { which, corner, .. }, Some(point), Some(sector), Role::Ring(ring)) => {
-                turned_patch(corner, &self.rings[point].patch(ring - 1, sector, which))
+        match place.source {
+            Source::Net(net) => self.regular_patch(net),
+            Source::Ring(RingPatch { point, sector, ring, which, corner, .. }) => {
+                turned_patch(corner, &self.rings[point].patch(ring, sector, which))
             }
-            (Source::Net(net), ..) => self.regular_patch(net),
-            _ => unreachable!("a patch of a ring has a point, a sector and a ring"),
         }
     }
 
@@ -363,19 +262,18 @@ impl Surface {
     /// patch by itself. Derivatives are in the quad's parameters and, unlike those of the
     /// polynomial in world coordinates, exact to rounding at any depth.
     pub fn eval_on(&self, place: &PatchPlace, u: f64, v: f64) -> SurfacePoint {
-        match (place.source, place.point, place.sector, place.role) {
-            (Source::Ring { which, square, corner }, Some(p), Some(s), Role::Ring(ring)) => {
-                let [a, b] = to_sector(corner, square.parameters([u, v]));
-                let found = self.rings[p].eval_on(ring - 1, s, which, a, b);
-                let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
-                SurfacePoint { jet, ..found }
-            }
-            (Source::Net(net), ..) => {
+        match place.source {
+            Source::Net(net) => {
                 let [[u0, u1], [v0, v1]] = place.domain;
                 let jet = self.regular_jet(net, [(u - u0) / (u1 - u0), (v - v0) / (v1 - v0)]);
                 jet.scaled_parameters(1.0 / (u1 - u0)).into()
             }
-            _ => unreachable!("a patch of a ring has a point, a sector and a ring"),
+            Source::Ring(RingPatch { point, sector, ring, which, square, corner }) => {
+                let [a, b] = to_sector(corner, square.parameters([u, v]));
+                let found = self.rings[point].eval_on(ring, sector, which, a, b);
+                let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
+                SurfacePoint { jet, ..found }
+            }
         }
     }
 
@@ -397,16 +295,17 @@ impl Surface {
                 source: Source::Net(net),
             }),
             Piece::Sector { point, sector, corner } => {
-                let around = &self.rings[point as usize];
+                let (point, sector) = (point as usize, sector as usize);
+                let around = &self.rings[point];
                 let count = around.patches_per_sector();
                 let all = (0..rings).flat_map(|ring| (0..count).map(move |which| (ring, which)));
                 out.extend(all.map(|(ring, which)| PatchPlace {
                     role: Role::Ring(ring + 1),
                     quad: square.quad,
                     domain: square.part(ring_domain(corner, ring, around.patch_domain(which))),
-                    point: Some(point as usize),
-                    sector: Some(sector as usize),
-                    source: Source::Ring { which, square, corner },
+                    point: Some(point),
+                    sector: Some(sector),
+                    source: Source::Ring(RingPatch { point, sector, ring, which, square, corner }),
                 }));
             }
             Piece::Split(first) => {
@@ -458,169 +357,4 @@ impl Surface {
         };
         Patch::new([3, 3], (0..16).map(coef).collect())
     }
-}
-
-/// A square of a parametric quad.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Square {
-    quad: QuadId,
-    origin: [f64; 2],
-    size: f64,
-}
-
-impl Square {
-    fn child(self, k: usize) -> Self {
-        let size = 0.5 * self.size;
-        let origin = [0, 1].map(|d| self.origin[d] + CORNERS[k][d] * size);
-        Self { origin, size, ..self }
-    }
-
-    /// The square's own parameters of a point of the quad.
-    fn parameters(self, at: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|d| (at[d] - self.origin[d]) / self.size)
-    }
-
-    /// The part of the quad that is `part` of this square.
-    fn part(self, part: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-        [0, 1].map(|d| part[d].map(|x| self.origin[d] + self.size * x))
-    }
-}
-
-fn rules_by_valence(
-    plan: &Plan,
-    options: SurfaceOptions,
-) -> Result<BTreeMap<usize, Arc<ValenceRules>>, SurfaceError> {
-    let SurfaceOptions { scheme, rules: set } = options;
-    let without = plan.points.iter().filter(|p| !scheme.has_rules(set, p.valence));
-    let points: Vec<_> = without.map(|p| (p.place, p.valence)).collect();
-    if !points.is_empty() {
-        return Err(SurfaceError::NoRules { points, scheme, rules: set });
-    }
-    let mut rules = BTreeMap::new();
-    for point in &plan.points {
-        rules.entry(point.valence).or_insert_with(|| {
-            let rules = ValenceRules::new(scheme, set, point.valence);
-            Arc::new(rules.expect("has_rules was asked before"))
-        });
-    }
-    Ok(rules)
-}
-
-fn refined_positions(cage: &Cage, plan: &Plan) -> Vec<Vec<Point>> {
-    let mut refined: Vec<Vec<Point>> = Vec::new();
-    for (k, level) in plan.levels.iter().enumerate() {
-        let coarse = refined.last().map_or(cage.positions(), Vec::as_slice);
-        let topology = plan.topology(cage.topology(), k);
-        refined.push(level.positions(topology, coarse, k > 0));
-    }
-    refined
-}
-
-/// The c-net of a point, at the level at which it is isolated.
-fn gather(cage: &Cage, plan: &Plan, refined: &[Vec<Point>], point: usize) -> CNet {
-    let level = plan.points[point].level;
-    let positions = if level == 0 { cage.positions() } else { &refined[level - 1] };
-    let topology = plan.topology(cage.topology(), level);
-    let first = plan.first_half_edges[point];
-    let at = |v: VertexId| positions[v.index()];
-    CNet {
-        center: at(topology.origin(first)),
-        sectors: cnet_vertices(topology, first).into_iter().map(|s| s.map(at)).collect(),
-    }
-}
-
-fn describe(plan: &Plan, point: usize, rings: &Rings) -> ExtraordinaryPoint {
-    let found = plan.points[point];
-    let mut sectors: Vec<Sector> = plan.sectors[point]
-        .iter()
-        .map(|place| {
-            let on_quad = |[a, b]: [f64; 2]| {
-                let [u, v] = from_sector_parameters(place.corner as u8, [a, b]);
-                [place.origin[0] + place.size * u, place.origin[1] + place.size * v]
-            };
-            let center = on_quad([0.0, 0.0]);
-            let step = |end: [f64; 2]| [end[0] - center[0], end[1] - center[1]];
-            let along = [step(on_quad([1.0, 0.0])), step(on_quad([0.0, 1.0]))];
-            Sector { index: place.sector, quad: QuadId(place.quad), center, along }
-        })
-        .collect();
-    sectors.sort_by_key(|s| s.index);
-    let (vertex, face) = match found.place {
-        Place::Vertex(v) => (Some(v), None),
-        Place::FaceCentre(f) => (None, Some(f)),
-    };
-    ExtraordinaryPoint {
-        vertex,
-        face,
-        valence: found.valence,
-        level: found.level,
-        position: rings.center(),
-        normal: rings.normal(),
-        sectors,
-    }
-}
-
-/// The corner of the quarter of a square in which a point lies.
-fn quadrant([u, v]: [f64; 2]) -> usize {
-    match (u > 0.5, v > 0.5) {
-        (false, false) => 0,
-        (true, false) => 1,
-        (true, true) => 2,
-        (false, true) => 3,
-    }
-}
-
-/// The sector parameters (a,b) of a point (u,v) of a square, the extraordinary point being at
-/// the square's corner `corner`: a runs to the next corner, b to the one before.
-fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
-    match corner {
-        0 => [u, v],
-        1 => [v, 1.0 - u],
-        2 => [1.0 - u, 1.0 - v],
-        _ => [1.0 - v, u],
-    }
-}
-
-/// The inverse of [`to_sector`].
-fn from_sector_parameters(corner: u8, [a, b]: [f64; 2]) -> [f64; 2] {
-    match corner {
-        0 => [a, b],
-        1 => [1.0 - b, a],
-        2 => [1.0 - a, 1.0 - b],
-        _ => [b, 1.0 - a],
-    }
-}
-
-/// The jet in (u,v) of a map given in (a,b).
-fn from_sector(corner: u8, jet: &Jet) -> Jet {
-    let minus = |r| scale(-1.0, r);
-    let Jet { p, du: da, dv: db, duu: daa, duv: dab, dvv: dbb } = *jet;
-    match corner {
-        0 => *jet,
-        1 => Jet { p, du: minus(db), dv: da, duu: dbb, duv: minus(dab), dvv: daa },
-        2 => Jet { p, du: minus(da), dv: minus(db), duu: daa, duv: dab, dvv: dbb },
-        _ => Jet { p, du: db, dv: minus(da), duu: dbb, duv: minus(dab), dvv: daa },
-    }
-}
-
-/// A patch given in (a,b) with its parameters along (u,v).
-fn turned_patch(corner: u8, patch: &Patch) -> Patch {
-    let [d, _] = patch.degree();
-    let coef = |i: usize, j: usize| match corner {
-        0 => patch.coef(i, j),
-        1 => patch.coef(j, d - i),
-        2 => patch.coef(d - i, d - j),
-        _ => patch.coef(d - j, i),
-    };
-    let coefs = (0..=d).flat_map(|i| (0..=d).map(move |j| (i, j))).map(|(i, j)| coef(i, j));
-    Patch::new([d, d], coefs.collect())
-}
-
-/// The (u,v) rectangle, in the square of its sector, of a patch of ring `ring` (from 0) that
-/// covers `domain` in ring 0.
-fn ring_domain(corner: u8, ring: usize, [[a0, a1], [b0, b1]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    let scale = (0..ring).fold(1.0, |scale, _| 0.5 * scale);
-    let ends =
-        [[a0, b0], [a1, b1]].map(|end| from_sector_parameters(corner, end.map(|x| scale * x)));
-    [0, 1].map(|d| [ends[0][d].min(ends[1][d]), ends[0][d].max(ends[1][d])])
 }
