@@ -277,3 +277,32 @@ fn curvature_at_depth_follows_the_spectrum() {
         }
     }
 }
+
+/// With a quadratic the rings tend to copies of one another: curvature in a fixed direction has a
+/// limit, and hundreds of rings later it is still that.
+#[test]
+fn curvature_of_quadratic_attraction_has_a_limit_in_every_direction() {
+    for scheme in SchemeKind::ALL.into_iter().filter(|s| s.has_quadratic()) {
+        for n in [3, 5, 8, 10] {
+            let surface = common::surface(
+                &common::cage(&format!("obstacle/paraboloid_par_n{n}.obj")),
+                scheme,
+            );
+            let point = &surface.extraordinary_points()[0];
+            let sector = point.sectors.iter().find(|s| s.center == [0.0, 0.0]).unwrap();
+            for (a, b) in [(0.9, 0.0), (0.9, 0.6), (0.7, 0.7)] {
+                let mean = |ring: i32| {
+                    let h = 0.5_f64.powi(ring);
+                    at(&surface, sector, a * h, b * h).mean
+                };
+                let limit = mean(120);
+                assert!((mean(60) - limit).abs() < 1e-9 * limit.abs(), "{} n = {n}", scheme.name());
+                assert!(
+                    (mean(900) - limit).abs() < 1e-11 * limit.abs(),
+                    "{} n = {n}",
+                    scheme.name()
+                );
+            }
+        }
+    }
+}
