@@ -21,7 +21,8 @@
 //! - [`composition`]: jets of a guide composed with a map.
 //! - [`rings`]: the rings in degree bi-6, bi-5, bi-4 and bi-3 ([`pieces`]).
 //! - [`fit`]: the guide of a c-net, the fairest by the measures of [`fairness`].
-//! - [`bb`]: univariate Bernstein-Bezier tools.
+//! - [`cap`]: bi-6 patches that close the hole after any ring.
+//! - [`bb`]: univariate Bernstein-Bezier tools; [`solutions`]: systems that leave freedom.
 //!
 //! Sectors and lines are as everywhere in this crate: sector s lies between line s-1, along which
 //! u runs, and line s, along which v runs. A patch of bi-degree d has its coefficients b_ij in the
@@ -31,6 +32,7 @@
 //! Good Shape with Nested Refinement. Computer Graphics Forum 37, 2018, doi 10.1111/cgf.13313.
 
 pub mod bb;
+pub mod cap;
 pub mod characteristic;
 pub mod composition;
 pub mod determining;
@@ -39,4 +41,5 @@ pub mod fit;
 pub mod net;
 pub mod pieces;
 pub mod rings;
+pub mod solutions;
 pub mod space;

@@ -1,11 +1,12 @@
 //! Guided C2 subdivision against the numbers of our double-precision prototype,
 //! `data/golden/guided`, whose README says what they are.
 
+use evenlight_guide::guided::cap::{Cap, cap_map};
 use evenlight_guide::guided::characteristic::{CharacteristicRing, SQUARES, Square, sigma_of};
 use evenlight_guide::guided::determining::{FREE_PLACES, FreeCoefs, guide};
 use evenlight_guide::guided::fit::{generating_matrix, guide as fitted_guide};
 use evenlight_guide::guided::net::CNet;
-use evenlight_guide::guided::rings::{Form, Rings};
+use evenlight_guide::guided::rings::{Form, Rings, shrinking};
 use evenlight_guide::linear::Matrix;
 use evenlight_guide::real::Real;
 use serde_json::Value;
@@ -156,6 +157,22 @@ fn rings_of_the_fitted_guide() {
                 assert_near(&found, &matrix(&golden[&key], 3), 1e-12, &what);
             }
         }
+    }
+}
+
+#[test]
+fn the_cap() {
+    for n in VALENCES {
+        let golden = golden(n);
+        let chi = CharacteristicRing::catmull_clark(n);
+        let (c, u) = (Real::cos_of_turn(n), cap_map(&chi));
+        let s = (Real::ONE - c * c).sqrt();
+        let plane = (&u + &u.transposed().scaled(c)).above(&u.transposed().scaled(s));
+        assert_near(&plane, &matrix(&golden["sigma_hat"], 7), 1e-12, &format!("map, n = {n}"));
+        let twice = &shrinking(chi.lambda) * &shrinking(chi.lambda);
+        let guide = &Matrix::identity(n).kronecker(&twice) * &matrix(&golden["guide"], 3);
+        let found = &Cap::new(&chi).pieces(&guide)[SECTOR];
+        assert_near(found, &matrix(&golden["cap_bi6"], 3), 1e-12, &format!("cap, n = {n}"));
     }
 }
 

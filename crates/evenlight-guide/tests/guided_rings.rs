@@ -1,6 +1,7 @@
 //! Laws of guided rings, whatever the guide and the net are.
 
 use evenlight_guide::guided::bb::{End, monomials, number, raise, restrict};
+use evenlight_guide::guided::cap::Cap;
 use evenlight_guide::guided::characteristic::{CharacteristicRing, SQUARES, Square, sigma_of};
 use evenlight_guide::guided::composition::{jet_at, product};
 use evenlight_guide::guided::net::CNet;
@@ -275,6 +276,33 @@ fn bi6_rings_of_a_quadratic_are_the_quadratic_of_the_characteristic_ring() {
                     };
                     let error = largest(&(&jet_at(&found, 7, corner) - &exact));
                     assert!(error < 1e-24, "n = {n}, {square:?}: {error:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_cap_joins_every_bi6_ring_with_first_derivatives() {
+    for n in [3, 5, 8] {
+        let (guide, net) = guide_and_net(n);
+        for chi in characteristic_rings(n, Form::Bi6) {
+            let (rings, cap) = (Rings::new(&chi, Form::Bi6), Cap::new(&chi));
+            let layout = Layout::new(&chi, Form::Bi6);
+            let all_shrinking = Matrix::identity(n).kronecker(&shrinking(chi.lambda));
+            let mut hole = guide.clone();
+            for level in 0..3 {
+                hole = &all_shrinking * &hole;
+                let ring = rings.ring(level, &guide, &net);
+                for (ring, piece) in ring.iter().zip(cap.pieces(&hole)) {
+                    for across_u in [true, false] {
+                        let outside = &layout.inner_edge(ring, across_u)[0].data;
+                        let inside = &side_data(6, across_u, End::Finish, Real::ONE) * &piece;
+                        let first_order = 0..14;
+                        let jump = first_order
+                            .map(|row| (outside[(row, 0)] - inside[(row, 0)]).abs().to_f64());
+                        assert!(jump.fold(0.0, f64::max) < 1e-24, "n = {n}, level {level}");
+                    }
                 }
             }
         }

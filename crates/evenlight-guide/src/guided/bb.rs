@@ -1,7 +1,7 @@
 //! Univariate Bernstein-Bezier tools of any degree: Taylor data, degree raising, restriction.
 //!
-//! A polynomial of degree d on `[0,1]` is the column of its coefficients b_0..b_d. Everything here is
-//! a matrix on such columns; a patch of bi-degree d, numbered i (d + 1) + j with i along u and j
+//! A polynomial of degree d on `[0,1]` is the column of its coefficients b_0..b_d. Everything here
+//! is a matrix on such columns; a patch of bi-degree d, numbered i (d + 1) + j with i along u and j
 //! along v, is treated by Kronecker products of two of them.
 
 use crate::jet::binomial;

@@ -2,15 +2,14 @@
 //!
 //! Catmull-Clark subdivision around an extraordinary point inserts a knot half way between the
 //! point and the first knot line. Inserting it at sigma instead, 0 < sigma < 1, gives a family of
-//! subdivisions whose rings are L-shaped and whose subdominant eigenvalue, the larger
-//! root of
+//! subdivisions whose subdominant eigenvalue, the larger root of
 //!
 //! ```text
 //! lambda^2 - sigma (1 + sigma^2 + c (1 - sigma)^2) lambda + sigma^4 = 0,   c = cos(2 pi / n),
 //! ```
 //!
-//! is the speed at which rings contract [KP18-Guided, sec. 6.3]. sigma = 1/2 is
-//! Catmull-Clark subdivision itself; at every valence some sigma has lambda = 1/2.
+//! is the speed at which rings contract [KP18-Guided, sec. 6.3]. sigma = 1/2 is Catmull-Clark
+//! subdivision itself; at every valence some sigma has lambda = 1/2.
 //!
 //! The eigenvectors of lambda are a planar c-net, and the net a ring chi of three bi-3 patches per
 //! sector that lambda chi continues with continuous second derivatives:
@@ -29,8 +28,8 @@
 //! of the guide. It is scaled such that the ends of the outer border, chi(1,0) and chi(0,1), are
 //! (1,0) and (0,1).
 //!
-//! DIFFERENCE: the paper takes its other speeds from \[KP09\], which we have not seen; the family by
-//! knot insertion at sigma is our reading.
+//! DIFFERENCE: the paper takes its other speeds from earlier work that we have not seen; the family
+//! by knot insertion at sigma is our reading.
 
 use crate::guided::bb::power;
 use crate::guided::net::CNet;

@@ -47,6 +47,33 @@ pub fn ring_energy(chi: &CharacteristicRing, square: Square, degree: usize) -> M
     energy
 }
 
+/// The matrix of the functional F_k on the BB coefficients of a patch of bi-`degree` over the unit
+/// square: the integral of sum_(i+j=k) k!/(i! j!) (d_u^i d_v^j g)^2.
+pub fn functional(degree: usize, k: usize) -> Matrix {
+    let size = (degree + 1) * (degree + 1);
+    (0..=k).fold(Matrix::zeros(size, size), |sum, i| {
+        let term = derivative_products(degree, i).kronecker(&derivative_products(degree, k - i));
+        &sum + &term.scaled(choose(k, i))
+    })
+}
+
+/// The integrals over the unit interval of the products of the i-th derivatives of the Bernstein
+/// polynomials: D^T G D with D the i-th differences times d!/(d-i)! and G of degree d - i.
+fn derivative_products(degree: usize, i: usize) -> Matrix {
+    let Some(m) = degree.checked_sub(i) else {
+        return Matrix::zeros(degree + 1, degree + 1);
+    };
+    let derivative = (m..degree).rev().fold(Matrix::identity(degree + 1), |before, lower| {
+        Matrix::from_fn(lower + 1, degree + 1, |row, column| {
+            number(lower + 1) * (before[(row + 1, column)] - before[(row, column)])
+        })
+    });
+    let products = Matrix::from_fn(m + 1, m + 1, |a, b| {
+        choose(m, a) * choose(m, b) / (choose(2 * m, a + b) * number(2 * m + 1))
+    });
+    &derivative.transposed() * &(&products * &derivative)
+}
+
 /// Adds `weight` times the product of the row with itself.
 fn add_square(matrix: &mut Matrix, row: &[Real], weight: Real) {
     for (i, &x) in row.iter().enumerate() {
@@ -199,6 +226,14 @@ mod tests {
                     assert!(error < 1e-20, "n = {n}, {square:?}, X^{a} Y^{b}: {error:e}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_functional_is_that_of_the_other_schemes() {
+        for k in 0..=6 {
+            let (here, there) = (functional(5, k), crate::quadratic::functional(k));
+            assert!(largest(&(&here - &there)) <= 1e-28 * largest(&there), "F_{k}");
         }
     }
 

@@ -31,12 +31,11 @@ use std::ops::Range;
 
 use crate::guided::bb::power;
 use crate::guided::characteristic::{CharacteristicRing, SQUARES};
-use crate::guided::fairness::ring_energy;
+use crate::guided::fairness::{functional, ring_energy};
 use crate::guided::net::{CNet, NODES_PER_SECTOR};
 use crate::guided::rings::{Form, Rings, shrinking};
 use crate::guided::space::{COEFS, DEGREE, MAX_TOTAL, basis, orthonormal};
 use crate::linear::Matrix;
-use crate::quadratic::functional;
 use crate::real::Real;
 
 /// The rings whose energy is minimised.
@@ -124,7 +123,8 @@ impl Problem {
         let rings = Rings::new(chi, Form::Bi5);
         let shrinking = shrinking(chi.lambda);
         let (numerator, denominator) = WEIGHT_OF_F5;
-        let mut on_guide = functional(FUNCTIONAL).scaled(Real::ratio(numerator, denominator));
+        let mut on_guide =
+            functional(DEGREE, FUNCTIONAL).scaled(Real::ratio(numerator, denominator));
         let mut on_net = Matrix::zeros(COEFS, CNet { valence: chi.valence }.num_nodes());
         for square in SQUARES {
             let energy = ring_energy(chi, square, DEGREE);

@@ -24,7 +24,8 @@
 //! g(lambda^l .), so all later rings share one table. In degree bi-6 the rings of a quadratic q are
 //! q(chi) exactly: that makes the curvature of the surface continuous at the centre.
 //!
-//! Bi-4 and bi-3 rings replace the bi-5 patches by splines of the same corner data ([`super::pieces`]).
+//! Bi-4 and bi-3 rings replace the bi-5 patches by splines of the same corner data
+//! ([`super::pieces`]).
 
 use crate::guided::bb::{ENDS, End, bb_from_taylor, restrict, taylor_at, units};
 use crate::guided::characteristic::{CharacteristicRing, SQUARES, Square};
@@ -169,7 +170,7 @@ fn in_guide(chi: &CharacteristicRing, map: [Matrix; 2]) -> [Matrix; 2] {
 
 /// The outer border of a later ring from the guide: along u = 1, and along v = 1, as
 /// [`CNet::outer_data`].
-fn guide_border(chi: &CharacteristicRing, form: Form) -> [Matrix; 2] {
+pub(crate) fn guide_border(chi: &CharacteristicRing, form: Form) -> [Matrix; 2] {
     let map = in_guide(chi, chi.border());
     let transposed = map.each_ref().map(Matrix::transposed);
     [map, transposed].map(|map| edge_data(&map, form))

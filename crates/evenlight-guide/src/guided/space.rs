@@ -30,6 +30,7 @@
 use std::ops::RangeInclusive;
 
 use crate::guided::bb::{monomials, number, raise};
+use crate::guided::solutions::kernel;
 use crate::linear::Matrix;
 use crate::real::Real;
 
@@ -41,9 +42,6 @@ pub const COEFS: usize = (DEGREE + 1) * (DEGREE + 1);
 
 /// The highest total degree of a term of a guide.
 pub const MAX_TOTAL: usize = 2 * DEGREE;
-
-/// A pivot below this is a zero: the smallest one kept is 0.1, the largest dropped 1e-29.
-const PIVOT_TOLERANCE: f64 = 1e-20;
 
 /// The number of a coefficient of a guide of valence n: piece `sector` (modulo n), index (i, j).
 pub fn index(valence: usize, sector: isize, i: usize, j: usize) -> usize {
@@ -77,7 +75,7 @@ pub fn basis(valence: usize, totals: RangeInclusive<usize>) -> Matrix {
 /// u^i v^j with i + j = `total`.
 pub fn homogeneous(valence: usize, total: usize) -> Matrix {
     let exponents = exponents(total);
-    let kernel = kernel(conditions(valence, &exponents));
+    let kernel = kernel(&conditions(valence, &exponents));
     let one = monomials(DEGREE);
     Matrix::from_fn(COEFS * valence, kernel.num_columns(), |row, column| {
         let (sector, i, j) = (row / COEFS, row % COEFS / (DEGREE + 1), row % (DEGREE + 1));
@@ -128,63 +126,6 @@ fn conditions(valence: usize, exponents: &[(usize, usize)]) -> Matrix {
         }
     }
     matrix
-}
-
-/// A basis of the solutions of `matrix` x = 0, as columns, by Gauss-Jordan elimination with
-/// complete pivoting: each free unknown is 1 in one column and 0 in the others.
-fn kernel(mut matrix: Matrix) -> Matrix {
-    let num_unknowns = matrix.num_columns();
-    let mut pivots: Vec<usize> = Vec::new();
-    while let Some((row, column)) = largest_below(&matrix, pivots.len()) {
-        let rank = pivots.len();
-        swap_rows(&mut matrix, rank, row);
-        clear_column(&mut matrix, rank, column);
-        pivots.push(column);
-    }
-    let free: Vec<usize> = (0..num_unknowns).filter(|x| !pivots.contains(x)).collect();
-    let mut solutions = Matrix::zeros(num_unknowns, free.len());
-    for (k, &unknown) in free.iter().enumerate() {
-        solutions[(unknown, k)] = Real::ONE;
-        for (row, &pivot) in pivots.iter().enumerate() {
-            solutions[(pivot, k)] = -matrix[(row, unknown)];
-        }
-    }
-    solutions
-}
-
-/// The place of the largest entry from row `first` on; `None` if all are zero.
-fn largest_below(matrix: &Matrix, first: usize) -> Option<(usize, usize)> {
-    let mut best = (Real::from(PIVOT_TOLERANCE), None);
-    for row in first..matrix.num_rows() {
-        for column in 0..matrix.num_columns() {
-            let size = matrix[(row, column)].abs();
-            if size > best.0 {
-                best = (size, Some((row, column)));
-            }
-        }
-    }
-    best.1
-}
-
-fn swap_rows(matrix: &mut Matrix, a: usize, b: usize) {
-    let (row_a, row_b) = (matrix.row(a).to_vec(), matrix.row(b).to_vec());
-    matrix.set_row(a, &row_b);
-    matrix.set_row(b, &row_a);
-}
-
-/// Makes column `column` the unit vector of row `pivot`.
-fn clear_column(matrix: &mut Matrix, pivot: usize, column: usize) {
-    let inverse = Real::ONE / matrix[(pivot, column)];
-    let pivot_row: Vec<Real> = matrix.row(pivot).iter().map(|&x| inverse * x).collect();
-    matrix.set_row(pivot, &pivot_row);
-    for row in (0..matrix.num_rows()).filter(|&row| row != pivot) {
-        let factor = matrix[(row, column)];
-        if factor != Real::ZERO {
-            let rest = matrix.row(row).iter().zip(&pivot_row);
-            let rest: Vec<Real> = rest.map(|(&x, &p)| x - factor * p).collect();
-            matrix.set_row(row, &rest);
-        }
-    }
 }
 
 /// The columns of `basis` made orthonormal, from the left, by two rounds of Gram-Schmidt; they must
@@ -295,7 +236,7 @@ mod tests {
             let all: usize = (0..=MAX_TOTAL).map(|total| multiplicity(n, total)).sum();
             let star = if n == 3 || n == 6 { n + 1 } else { n };
             assert_eq!(all, 17 * n + star + 6);
-            assert_eq!(kernel(bb_conditions(n)).num_columns(), all, "valence {n}");
+            assert_eq!(kernel(&bb_conditions(n)).num_columns(), all, "valence {n}");
         }
     }
 
