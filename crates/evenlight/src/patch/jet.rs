@@ -1,6 +1,7 @@
 //! Position and derivatives at a point of a surface, and what follows from them.
 
-use crate::point::{Point, Vector, cross, dot, norm, scale, unit};
+use super::basis::BasisJet;
+use crate::point::{Point, Vector, add_scaled, cross, dot, norm, scale, unit};
 
 /// Position and the derivatives up to order two of a map (u,v) -> space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,6 +21,33 @@ pub struct Jet {
 }
 
 impl Jet {
+    /// The jet of sum_ij bu_i bv_j p(i,j), from the first `counts` basis functions in each
+    /// variable.
+    pub(crate) fn tensor_product<const M: usize, const N: usize>(
+        bu: &BasisJet<M>,
+        bv: &BasisJet<N>,
+        counts: [usize; 2],
+        p: impl Fn(usize, usize) -> Point,
+    ) -> Self {
+        let mut jet = Self::default();
+        for i in 0..counts[0] {
+            let mut along_v = [[0.0; 3]; 3];
+            for j in 0..counts[1] {
+                let p = p(i, j);
+                for (order, sum) in along_v.iter_mut().enumerate() {
+                    add_scaled(sum, bv[order][j], p);
+                }
+            }
+            add_scaled(&mut jet.p, bu[0][i], along_v[0]);
+            add_scaled(&mut jet.du, bu[1][i], along_v[0]);
+            add_scaled(&mut jet.dv, bu[0][i], along_v[1]);
+            add_scaled(&mut jet.duu, bu[2][i], along_v[0]);
+            add_scaled(&mut jet.duv, bu[1][i], along_v[1]);
+            add_scaled(&mut jet.dvv, bu[0][i], along_v[2]);
+        }
+        jet
+    }
+
     /// Position and derivatives in the order p, du, dv, duu, duv, dvv.
     pub fn rows(&self) -> [Vector; 6] {
         [self.p, self.du, self.dv, self.duu, self.duv, self.dvv]

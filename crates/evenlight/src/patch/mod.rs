@@ -21,7 +21,7 @@ mod jet;
 
 pub use jet::{Jet, SurfacePoint};
 
-use crate::point::{Point, add_scaled};
+use crate::point::Point;
 
 /// The highest degree of a patch in one parameter.
 pub const MAX_DEGREE: usize = 6;
@@ -76,22 +76,8 @@ impl Patch {
     pub fn jet(&self, u: f64, v: f64) -> Jet {
         let bu = basis::bernstein(self.degree[0], u);
         let bv = basis::bernstein(self.degree[1], v);
-        let mut jet = Jet::default();
-        for (i, row) in self.coefs.chunks_exact(self.degree[1] + 1).enumerate() {
-            let mut along_v = [[0.0; 3]; 3];
-            for (j, &b) in row.iter().enumerate() {
-                for (k, sum) in along_v.iter_mut().enumerate() {
-                    add_scaled(sum, bv[k][j], b);
-                }
-            }
-            add_scaled(&mut jet.p, bu[0][i], along_v[0]);
-            add_scaled(&mut jet.du, bu[1][i], along_v[0]);
-            add_scaled(&mut jet.dv, bu[0][i], along_v[1]);
-            add_scaled(&mut jet.duu, bu[2][i], along_v[0]);
-            add_scaled(&mut jet.duv, bu[1][i], along_v[1]);
-            add_scaled(&mut jet.dvv, bu[0][i], along_v[2]);
-        }
-        jet
+        let counts = self.degree.map(|d| d + 1);
+        Jet::tensor_product(&bu, &bv, counts, |i, j| self.coef(i, j))
     }
 }
 

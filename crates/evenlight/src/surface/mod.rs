@@ -325,23 +325,7 @@ impl Surface {
         let net = self.plan.nets[net as usize];
         let positions = self.positions(net.level as usize);
         let (bu, bv) = (cubic_b_spline(u), cubic_b_spline(v));
-        let mut jet = Jet::default();
-        for i in 0..4 {
-            let mut along_v = [[0.0; 3]; 3];
-            for j in 0..4 {
-                let p = positions[net.vertices[4 * i + j].index()];
-                for (order, sum) in along_v.iter_mut().enumerate() {
-                    add_scaled(sum, bv[order][j], p);
-                }
-            }
-            add_scaled(&mut jet.p, bu[0][i], along_v[0]);
-            add_scaled(&mut jet.du, bu[1][i], along_v[0]);
-            add_scaled(&mut jet.dv, bu[0][i], along_v[1]);
-            add_scaled(&mut jet.duu, bu[2][i], along_v[0]);
-            add_scaled(&mut jet.duv, bu[1][i], along_v[1]);
-            add_scaled(&mut jet.dvv, bu[0][i], along_v[2]);
-        }
-        jet
+        Jet::tensor_product(&bu, &bv, [4, 4], |i, j| positions[net.vertices[4 * i + j].index()])
     }
 
     fn regular_patch(&self, net: u32) -> Patch {
