@@ -30,7 +30,10 @@ impl Jet {
         p: impl Fn(usize, usize) -> Point,
     ) -> Self {
         let mut jet = Self::default();
-        for i in 0..counts[0] {
+        let [values, first, second] = bu;
+        for (i, ((&b, &b1), &b2)) in
+            values.iter().zip(first).zip(second).take(counts[0]).enumerate()
+        {
             let mut along_v = [[0.0; 3]; 3];
             for j in 0..counts[1] {
                 let p = p(i, j);
@@ -38,12 +41,12 @@ impl Jet {
                     add_scaled(sum, bv[order][j], p);
                 }
             }
-            add_scaled(&mut jet.p, bu[0][i], along_v[0]);
-            add_scaled(&mut jet.du, bu[1][i], along_v[0]);
-            add_scaled(&mut jet.dv, bu[0][i], along_v[1]);
-            add_scaled(&mut jet.duu, bu[2][i], along_v[0]);
-            add_scaled(&mut jet.duv, bu[1][i], along_v[1]);
-            add_scaled(&mut jet.dvv, bu[0][i], along_v[2]);
+            add_scaled(&mut jet.p, b, along_v[0]);
+            add_scaled(&mut jet.du, b1, along_v[0]);
+            add_scaled(&mut jet.dv, b, along_v[1]);
+            add_scaled(&mut jet.duu, b2, along_v[0]);
+            add_scaled(&mut jet.duv, b1, along_v[1]);
+            add_scaled(&mut jet.dvv, b, along_v[2]);
         }
         jet
     }
