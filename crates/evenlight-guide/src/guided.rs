@@ -22,6 +22,7 @@
 //! - [`rings`]: the rings in degree bi-6, bi-5, bi-4 and bi-3 ([`pieces`]).
 //! - [`fit`]: the guide of a c-net, the fairest by the measures of [`fairness`].
 //! - [`cap`]: bi-6 patches that close the hole after any ring.
+//! - [`table`]: what a library needs of each valence, in integers.
 //! - [`bb`]: univariate Bernstein-Bezier tools; [`solutions`]: systems that leave freedom.
 //!
 //! Sectors and lines are as everywhere in this crate: sector s lies between line s-1, along which
@@ -43,3 +44,4 @@ pub mod pieces;
 pub mod rings;
 pub mod solutions;
 pub mod space;
+pub mod table;
