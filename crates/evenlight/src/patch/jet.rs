@@ -29,26 +29,13 @@ impl Jet {
         counts: [usize; 2],
         p: impl Fn(usize, usize) -> Point,
     ) -> Self {
-        let mut jet = Self::default();
-        let [values, first, second] = bu;
-        for (i, ((&b, &b1), &b2)) in
-            values.iter().zip(first).zip(second).take(counts[0]).enumerate()
-        {
-            let mut along_v = [[0.0; 3]; 3];
-            for j in 0..counts[1] {
-                let p = p(i, j);
-                for (order, sum) in along_v.iter_mut().enumerate() {
-                    add_scaled(sum, bv[order][j], p);
-                }
-            }
-            add_scaled(&mut jet.p, b, along_v[0]);
-            add_scaled(&mut jet.du, b1, along_v[0]);
-            add_scaled(&mut jet.dv, b, along_v[1]);
-            add_scaled(&mut jet.duu, b2, along_v[0]);
-            add_scaled(&mut jet.duv, b1, along_v[1]);
-            add_scaled(&mut jet.dvv, b, along_v[2]);
+        let mut along_v = [[[0.0; 3]; 3]; M];
+        for (i, row) in along_v.iter_mut().enumerate().take(counts[0]) {
+            *row = weighted_sums(bv, counts[1], |j| p(i, j));
         }
-        jet
+        let along_u = |order: usize| weighted_sums(bu, counts[0], |i| along_v[i][order]);
+        let ([p, du, duu], [dv, duv, _], [dvv, ..]) = (along_u(0), along_u(1), along_u(2));
+        Self { p, du, dv, duu, duv, dvv }
     }
 
     /// Position and derivatives in the order p, du, dv, duu, duv, dvv.
@@ -95,6 +82,25 @@ impl Jet {
         let w2 = w * w;
         ((l * n - m * m) / w2, (e * n - 2.0 * f * m + g * l) / (2.0 * w2))
     }
+}
+
+/// The sums of values, first and second derivatives of the first `count` basis functions times
+/// points.
+fn weighted_sums<const N: usize>(
+    basis: &BasisJet<N>,
+    count: usize,
+    p: impl Fn(usize) -> Point,
+) -> [Vector; 3] {
+    let [values, first, second] = basis;
+    let weights = values.iter().zip(first).zip(second).take(count);
+    let mut sums = [[0.0; 3]; 3];
+    for (k, ((&w0, &w1), &w2)) in weights.enumerate() {
+        let p = p(k);
+        add_scaled(&mut sums[0], w0, p);
+        add_scaled(&mut sums[1], w1, p);
+        add_scaled(&mut sums[2], w2, p);
+    }
+    sums
 }
 
 /// Everything that a surface answers at one parameter.
