@@ -171,7 +171,7 @@ fn the_cap() {
         assert_near(&plane, &matrix(&golden["sigma_hat"], 7), 1e-12, &format!("map, n = {n}"));
         let twice = &shrinking(chi.lambda) * &shrinking(chi.lambda);
         let guide = &Matrix::identity(n).kronecker(&twice) * &matrix(&golden["guide"], 3);
-        let found = &Cap::new(&chi).pieces(&guide)[SECTOR];
+        let found = &Cap::new(&chi, Form::Bi6).pieces(&guide)[SECTOR];
         assert_near(found, &matrix(&golden["cap_bi6"], 3), 1e-12, &format!("cap, n = {n}"));
     }
 }

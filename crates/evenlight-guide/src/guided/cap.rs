@@ -29,6 +29,8 @@
 //! guide alone, and one table serves all rings. It is [`Cap::sampled`] on one piece of the guide,
 //! followed by [`Cap::joined`], which couples neighbours.
 //!
+//! The last ring may also be a bi-5 ring: its inner border is then degree-raised.
+//!
 //! DIFFERENCE: the paper counts 14 free parameters of the map and does not tell its last condition.
 
 use crate::guided::bb::{End, bb_from_taylor, choose, raise, taylor_at};
@@ -132,16 +134,22 @@ pub struct Cap {
 }
 
 impl Cap {
-    /// The cap after any bi-6 ring.
-    pub fn new(chi: &CharacteristicRing) -> Self {
+    /// The cap after any ring of the given form.
+    ///
+    /// # Panics
+    ///
+    /// If the rings are of bi-4 or bi-3 patches: their inner border is no polynomial.
+    pub fn new(chi: &CharacteristicRing, form: Form) -> Self {
+        assert!(form.degree() >= 5, "one patch cannot follow the pieces of a border");
         let first = cap_map(chi).scaled(chi.domain_scale());
         let map = [first.clone(), first.transposed()];
         let mut table = sampled(&map, DEGREE, 4);
-        let border = guide_border(chi, Form::Bi6);
+        let raised = raise(form.degree(), DEGREE);
+        let border = guide_border(chi, form);
         for (data, transpose) in border.iter().zip([false, true]) {
-            let first_order = data.select_rows(&(0..2 * ORDER).collect::<Vec<_>>());
+            let of_first_order: Vec<usize> = (0..2 * (form.degree() + 1)).collect();
             let to_bb = bb_from_taylor(DEGREE, 2, End::Finish);
-            let layers = &to_bb.kronecker(&Matrix::identity(ORDER)) * &first_order;
+            let layers = &to_bb.kronecker(&raised) * &data.select_rows(&of_first_order);
             for (k, place) in (COEFS - 2 * ORDER..COEFS).enumerate() {
                 let place = if transpose { mirrored(place) } else { place };
                 table.set_row(place, layers.row(k));
@@ -224,6 +232,8 @@ mod tests {
         rings.into_iter().chain([half(3), half(7)]).collect()
     }
 
+    const FORMS: [Form; 2] = [Form::Bi6, Form::Bi5];
+
     fn some_guide(n: usize) -> Matrix {
         let guides = basis(n, 0..=MAX_TOTAL);
         let mix = |k: usize| Real::ratio((7 * k as i32 + 3) % 11 - 5, 50);
@@ -249,10 +259,11 @@ mod tests {
 
     #[test]
     fn pieces_join_with_g1() {
-        for chi in characteristic_rings() {
+        let rings = characteristic_rings();
+        for (chi, form) in rings.iter().flat_map(|chi| FORMS.map(|form| (chi, form))) {
             let n = chi.valence;
             let guide = some_guide(n);
-            let pieces = Cap::new(&chi).pieces(&guide);
+            let pieces = Cap::new(chi, form).pieces(&guide);
             let c = Real::cos_of_turn(n);
             let raised = raise(6, 7);
             for line in 0..n {
@@ -278,9 +289,10 @@ mod tests {
 
     #[test]
     fn second_order_data_at_the_centre_and_the_outer_layers_are_kept() {
-        for chi in characteristic_rings() {
+        let rings = characteristic_rings();
+        for (chi, form) in rings.iter().flat_map(|chi| FORMS.map(|form| (chi, form))) {
             let guide = some_guide(chi.valence);
-            let cap = Cap::new(&chi);
+            let cap = Cap::new(chi, form);
             for (s, piece) in cap.pieces(&guide).iter().enumerate() {
                 let own = guide.select_rows(&(36 * s..36 * (s + 1)).collect::<Vec<_>>());
                 let before = &cap.sampled * &own;
@@ -297,10 +309,11 @@ mod tests {
 
     #[test]
     fn the_cap_of_the_plane_is_the_map() {
-        for chi in characteristic_rings() {
+        let rings = characteristic_rings();
+        for (chi, form) in rings.iter().flat_map(|chi| FORMS.map(|form| (chi, form))) {
             let scale = chi.domain_scale();
-            let map = cap_map(&chi).scaled(scale);
-            let cap = Cap::new(&chi);
+            let map = cap_map(chi).scaled(scale);
+            let cap = Cap::new(chi, form);
             let plane = Matrix::from_fn(36, 1, |k, _| Real::ratio(k as i32 / 6, 5));
             let piece = &cap.sampled * &plane;
             let exact = Matrix::from_fn(COEFS, 1, |k, _| map[(k / ORDER, k % ORDER)]);
