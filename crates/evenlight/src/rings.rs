@@ -134,7 +134,8 @@ impl Rings {
 
     pub(crate) fn with_rules(cnet: &CNet, rules: Arc<ValenceRules>, q: Option<&Quadratic>) -> Self {
         let center = q.map_or_else(|| rules.kind.limit_point(cnet), Quadratic::center);
-        let net = rules.kind.net(&cnet.relative_to(center));
+        let cnet = cnet.relative_to(center);
+        let net = rules.rules.guided_net(&cnet).unwrap_or_else(|| rules.kind.net(&cnet));
         Self::start(&net, center, q.map(Quadratic::expansion), rules)
     }
 
@@ -195,7 +196,7 @@ impl Rings {
     /// it is 2^-l as large. The patch's own parameters run the same way.
     ///
     /// Patches lie in three squares, [1/2,1] x [1/2,1], [1/2,1] x [0,1/2] and [0,1/2] x [1/2,1],
-    /// one in each or 2 x 2, the index along b fastest.
+    /// one in each, 2 x 2 or 3 x 3, the index along b fastest.
     pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
         let (corner, size) = self.rules.rules.patch_square(which);
         corner.map(|x| [x, x + size])
@@ -253,17 +254,27 @@ impl Rings {
         SurfacePoint { jet, normal: self.normal(), gauss, mean }
     }
 
-    /// K and H at the limit point: those of q, in schemes with a quadratic and where there is a
-    /// tangent plane. In the others curvature has no limit (it grows, or oscillates, from ring to
-    /// ring).
+    /// K and H at the limit point: those of q or of the guide, in schemes that have one and where
+    /// there is a tangent plane. In the others curvature has no limit (it grows, or oscillates, from
+    /// ring to ring).
     ///
-    /// Around the centre curvature varies with the direction, within a band around these values
-    /// that does not shrink: bounded curvature is not continuous curvature.
+    /// With `guided6` curvature is continuous: these are its limits. With the others it varies
+    /// with the direction around the centre, within a band around these values that does not
+    /// shrink: bounded curvature is not continuous curvature.
     pub fn center_curvature(&self) -> Option<(f64, f64)> {
-        let q = self.quadratic.filter(|_| self.frame.has_plane)?;
-        let [du, dv, uu, duv, vv] = q.expansion();
+        let [du, dv, uu, duv, vv] = self.expansion().filter(|_| self.frame.has_plane)?;
         let jet = Jet { p: self.center, du, dv, duu: scale(2.0, uu), duv, dvv: scale(2.0, vv) };
         Some(jet.curvature())
+    }
+
+    /// The expansion of q or of the guide in sector 0, in world coordinates.
+    fn expansion(&self) -> Option<Expansion> {
+        if self.rules.rules.guide.is_none() {
+            return self.quadratic.map(|q| q.expansion());
+        }
+        let first = self.rules.rules.control_nodes_per_sector();
+        let world = |k: usize| self.frame.world(1.0, 1.0, self.first[first + k]);
+        Some([0, 1, 2, 3, 4].map(world))
     }
 
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface

@@ -179,7 +179,7 @@ fn derivatives_agree_with_finite_differences_in_rings_1_to_20() {
                     if sector.center != [0.0, 0.0] {
                         continue;
                     }
-                    let step = 0.02 * h;
+                    let step = 0.015 * h;
                     let jet = at(&surface, sector, a, b).jet;
                     let [du, duu] = differences(|t| at(&surface, sector, a + t, b).jet.p, step);
                     let [dv, dvv] = differences(|t| at(&surface, sector, a, b + t).jet.p, step);
@@ -225,7 +225,7 @@ fn the_limit_at_the_extraordinary_point_is_the_limit_of_the_surface() {
                     assert_eq!(center.jet.p, point.position);
                     assert_eq!(center.normal, point.normal);
                     assert!(center.jet.du[0].is_nan());
-                    assert_eq!(center.gauss.is_nan(), !scheme.has_quadratic());
+                    assert_eq!(center.gauss.is_nan(), !scheme.has_center_curvature());
                     // Distance falls like lambda per ring, the angle of normals likewise (times
                     // (mu / lambda^2) per ring, at most 1.33 here).
                     let near = at(&surface, sector, 0.5_f64.powi(30), 0.3 * 0.5_f64.powi(30));
@@ -278,11 +278,11 @@ fn curvature_at_depth_follows_the_spectrum() {
     }
 }
 
-/// With a quadratic the rings tend to copies of one another: curvature in a fixed direction has a
+/// With a quadratic or a guide the rings tend to copies of one another: curvature in a fixed direction has a
 /// limit, and hundreds of rings later it is still that.
 #[test]
-fn curvature_of_quadratic_attraction_has_a_limit_in_every_direction() {
-    for scheme in SchemeKind::ALL.into_iter().filter(|s| s.has_quadratic()) {
+fn bounded_curvature_has_a_limit_in_every_direction() {
+    for scheme in SchemeKind::ALL.into_iter().filter(|s| s.has_center_curvature()) {
         for n in [3, 5, 8, 10] {
             let surface = common::surface(
                 &common::cage(&format!("obstacle/paraboloid_par_n{n}.obj")),

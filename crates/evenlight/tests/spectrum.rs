@@ -141,6 +141,30 @@ fn point_augmented_schemes_contract_like_catmull_clark() {
     }
 }
 
+/// [KP18-Guided, table 5]: powers of lambda, so that curvature is bounded, as often as there are
+/// homogeneous guides; all guides are 17n + n* + 6 dimensions.
+#[test]
+fn guided_subdivision_has_the_powers_of_lambda() {
+    let guided =
+        [SchemeKind::Guided3, SchemeKind::Guided4, SchemeKind::Guided5, SchemeKind::Guided6];
+    for scheme in guided {
+        let spectra = all(scheme, RuleSet::Generated);
+        assert_eq!(spectra.len(), 13);
+        for s in spectra {
+            let (n, name) = (s.valence, format!("{} n = {}", scheme.name(), s.valence));
+            let cubics = if n == 3 || n == 6 { n + 1 } else { n };
+            assert!((s.lambda - catmull_clark_eigenvalue(n, 1)).abs() < 1e-14, "{name}");
+            assert_eq!(s.moduli.len(), 17 * n + cubics + 6, "{name}");
+            let count = |power: i32| {
+                s.moduli.iter().filter(|x| (*x / s.lambda.powi(power) - 1.0).abs() < 1e-12).count()
+            };
+            assert_eq!([0, 1, 2, 3, 10].map(count), [1, 2, 3, cubics, n], "{name}");
+            assert!((s.mu_over_lambda2 - 1.0).abs() < 1e-13, "{name}");
+            assert!((s.md_max_over_lambda2.unwrap() - s.lambda).abs() < 1e-13, "{name}");
+        }
+    }
+}
+
 #[test]
 fn characteristic_maps_are_proved_to_be_injective() {
     for scheme in SchemeKind::ALL {

@@ -16,6 +16,18 @@
 //! ```
 //!
 //! and curvature is bounded if all eigenvalues of M_d are below lambda^2 [KP23-QAS, Section 5].
+//!
+//! A guided surface is subdivided by shrinking its guide: the homogeneous guides of degree s, sums
+//! of u^i v^j with i + j = s and i, j <= 5 that join G2, are the eigenspace of lambda^s. Their
+//! dimensions for s = 0, 1, .. 10 are [KP18-Guided, table 5]
+//!
+//! ```text
+//!   1, 2, 3, n*, 2n, 3n, 3n, 3n, 3n, 2n, n,     n* = n + 1 for n = 3 and 6, else n.
+//! ```
+//!
+//! The nodes of the library are more: powers of the pieces, whether they join or not, and data
+//! along the border. The border comes from the guide alone; it adds eigenvalues 0, and pieces that
+//! do not join add multiplicity. Neither is counted.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -38,7 +50,7 @@ pub struct Spectrum {
     /// The modulus of the subsubdominant eigenvalue over lambda^2.
     pub mu_over_lambda2: f64,
     /// The largest modulus among the eigenvalues of M_d, over lambda^2, for schemes with a
-    /// quadratic; below 1 it proves that curvature is bounded.
+    /// quadratic or a guide; below 1 it proves that curvature is bounded.
     pub md_max_over_lambda2: Option<f64>,
     /// How many entries of the whole matrix are zero, in percent.
     pub zeros_percent: f64,
@@ -59,10 +71,15 @@ pub fn spectrum(scheme: SchemeKind, set: RuleSet, valence: usize) -> Option<Spec
     let rules = scheme.rules(set, valence)?;
     let subdominant = Subdominant::new(&rules);
     let lambda = subdominant.lambda;
-    let mut moduli: Vec<f64> = (0..valence).flat_map(|m| block_moduli(&rules, m)).collect();
+    let mut moduli = if rules.guide.is_some() {
+        guided_moduli(valence, lambda)
+    } else {
+        (0..valence).flat_map(|m| block_moduli(&rules, m)).collect()
+    };
     let largest = moduli.iter().copied().fold(0.0, f64::max);
     moduli.push(1.0);
-    if rules.quadratic.is_some() {
+    let has_expansion = rules.lambda_of_linear_terms().is_some();
+    if has_expansion {
         moduli.extend([lambda, lambda, lambda * lambda, lambda * lambda, lambda * lambda]);
     }
     moduli.sort_by(|a, b| b.total_cmp(a));
@@ -71,12 +88,24 @@ pub fn spectrum(scheme: SchemeKind, set: RuleSet, valence: usize) -> Option<Spec
         valence,
         lambda,
         mu_over_lambda2: moduli[3] / (lambda * lambda),
-        md_max_over_lambda2: rules.quadratic.as_ref().map(|_| largest / (lambda * lambda)),
+        md_max_over_lambda2: has_expansion.then(|| largest / (lambda * lambda)),
         zeros_percent: zeros_percent(scheme, &rules),
         jacobian_min: smallest_jacobian(&ring),
         injectivity_proved: ring.iter().all(jacobian_is_positive),
         moduli,
     })
+}
+
+/// The eigenvalues of a guide of degree 3 and more, each as often as there are homogeneous guides.
+fn guided_moduli(n: usize, lambda: f64) -> Vec<f64> {
+    let cubics = if n == 3 || n == 6 { n + 1 } else { n };
+    let dimensions = [cubics, 2 * n, 3 * n, 3 * n, 3 * n, 3 * n, 2 * n, n];
+    let mut power = lambda * lambda;
+    let eigenvalues = dimensions.map(|count| {
+        power *= lambda;
+        vec![power; count]
+    });
+    eigenvalues.concat()
 }
 
 /// The moduli of the eigenvalues of Fourier block `m` of the control net.
@@ -96,7 +125,8 @@ fn block_moduli(rules: &Rules, m: usize) -> Vec<f64> {
 
 /// The zeros of the whole matrix in percent, as the paper counts them [KP23-QAS, Section 8]: nets
 /// of 12 nodes per sector and the centre (for Catmull-Clark three rings of quads and e), with a
-/// quadratic 5 more per sector, q_2 to q_6, each sector for itself.
+/// quadratic 5 more per sector, q_2 to q_6, each sector for itself; of guided schemes the nodes are
+/// the library's own, relative to the centre.
 fn zeros_percent(scheme: SchemeKind, rules: &Rules) -> f64 {
     let n = rules.valence;
     let (per_sector, nodes, center_row) = if scheme == SchemeKind::CatmullClark {
@@ -104,6 +134,9 @@ fn zeros_percent(scheme: SchemeKind, rules: &Rules) -> f64 {
         let old = |k: usize| if k.is_multiple_of(2) { 3 } else { 2 };
         let pairs = (0..4).flat_map(|a| (1..4).map(move |b| (a, b)));
         (pairs.map(|(a, b)| old(a) * old(b)).sum::<usize>(), 12, 2 * n + 1)
+    } else if rules.guide.is_some() {
+        let of_sector: usize = rules.refine.iter().map(Vec::len).sum();
+        (of_sector, rules.nodes_per_sector, 1)
     } else {
         let control = &rules.refine[..rules.control_nodes_per_sector()];
         let of_net: usize =

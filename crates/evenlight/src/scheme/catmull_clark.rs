@@ -24,6 +24,7 @@ pub(crate) fn rules(n: usize) -> Rules {
         split: 1,
         patches,
         quadratic: None,
+        guide: None,
     }
 }
 

@@ -22,6 +22,7 @@ pub(crate) fn rules(n: usize, published: bool) -> Option<Rules> {
         split: Spline::BiQuartic.split(),
         patches: Spline::BiQuartic.patches(&empty),
         quadratic: None,
+        guide: None,
     })
 }
 

@@ -5,6 +5,7 @@
 
 mod catmull_clark;
 mod evolving_guide;
+mod guided;
 mod quadratic_attraction;
 mod rules;
 mod spline;
@@ -35,6 +36,16 @@ pub enum SchemeKind {
     /// Quadratic-Attraction subdivision [KP23-QAS]: bi-4 rings, curvature bounded at the centre.
     #[default]
     Qas4,
+    /// Guided C2 subdivision [KP18-Guided]: 3 x 3 bi-3 macro-patches, curvature bounded at the
+    /// centre.
+    Guided3,
+    /// Guided C2 subdivision [KP18-Guided]: 2 x 2 bi-4 macro-patches, curvature bounded at the
+    /// centre.
+    Guided4,
+    /// Guided C2 subdivision [KP18-Guided]: bi-5 rings, curvature bounded at the centre.
+    Guided5,
+    /// Guided C2 subdivision [KP18-Guided]: bi-6 rings, curvature continuous at the centre.
+    Guided6,
 }
 
 /// Which tables of weights are used, by schemes that have tables.
@@ -43,14 +54,25 @@ pub enum RuleSet {
     /// Full precision, valences 3 and 5 to 16.
     #[default]
     Generated,
-    /// As the papers print them, truncated to 5 digits: valences 3 and 5 to 10.
+    /// As the papers print them, truncated to 5 digits: valences 3 and 5 to 10. None are printed of
+    /// guided subdivision.
     Published,
 }
 
 impl SchemeKind {
     /// All schemes, in the order in which they are listed to users.
-    pub const ALL: [Self; 6] =
-        [Self::CatmullClark, Self::EvolvingGuide, Self::Pas3, Self::Pas4, Self::Qas3, Self::Qas4];
+    pub const ALL: [Self; 10] = [
+        Self::CatmullClark,
+        Self::EvolvingGuide,
+        Self::Pas3,
+        Self::Pas4,
+        Self::Qas3,
+        Self::Qas4,
+        Self::Guided3,
+        Self::Guided4,
+        Self::Guided5,
+        Self::Guided6,
+    ];
 
     /// The short name used in commands and files.
     pub fn name(self) -> &'static str {
@@ -61,6 +83,10 @@ impl SchemeKind {
             Self::Pas4 => "pas4",
             Self::Qas3 => "qas3",
             Self::Qas4 => "qas4",
+            Self::Guided3 => "guided3",
+            Self::Guided4 => "guided4",
+            Self::Guided5 => "guided5",
+            Self::Guided6 => "guided6",
         }
     }
 
@@ -69,7 +95,9 @@ impl SchemeKind {
         match (self, rules) {
             (Self::CatmullClark, _) => (2..=MAX_CATMULL_CLARK_VALENCE).contains(&n),
             (_, RuleSet::Generated) => n == 3 || (5..=16).contains(&n),
-            (_, RuleSet::Published) => n == 3 || (5..=10).contains(&n),
+            (_, RuleSet::Published) => {
+                self.guided_degree().is_none() && (n == 3 || (5..=10).contains(&n))
+            }
         }
     }
 
@@ -78,6 +106,7 @@ impl SchemeKind {
         match (self, rules) {
             (Self::CatmullClark, _) => "2 to 1024",
             (_, RuleSet::Generated) => "3 and 5 to 16",
+            (_, RuleSet::Published) if self.guided_degree().is_some() => "none",
             (_, RuleSet::Published) => "3 and 5 to 10",
         }
     }
@@ -88,11 +117,29 @@ impl SchemeKind {
         matches!(self, Self::Qas3 | Self::Qas4)
     }
 
-    /// What the scheme's nets are control points of; `None` for Catmull-Clark, which works on
-    /// c-nets.
+    /// Whether curvature is bounded at extraordinary points, and given there: that of the quadratic
+    /// or of the guide. With `guided6` it is continuous.
+    pub fn has_center_curvature(self) -> bool {
+        self.has_quadratic() || self.guided_degree().is_some()
+    }
+
+    /// The degree of the rings of guided subdivision.
+    fn guided_degree(self) -> Option<usize> {
+        match self {
+            Self::Guided3 => Some(3),
+            Self::Guided4 => Some(4),
+            Self::Guided5 => Some(5),
+            Self::Guided6 => Some(6),
+            _ => None,
+        }
+    }
+
+    /// What the scheme's nets are control points of; `None` for Catmull-Clark and guided
+    /// subdivision, which work on c-nets.
     pub fn spline(self) -> Option<Spline> {
         match self {
             Self::CatmullClark => None,
+            Self::Guided3 | Self::Guided4 | Self::Guided5 | Self::Guided6 => None,
             Self::EvolvingGuide | Self::Pas4 | Self::Qas4 => Some(Spline::BiQuartic),
             Self::Pas3 | Self::Qas3 => Some(Spline::BiCubic),
         }
@@ -115,6 +162,10 @@ impl SchemeKind {
             }
             Self::Qas3 => quadratic_attraction::rules(n, Spline::BiCubic, published),
             Self::Qas4 => quadratic_attraction::rules(n, Spline::BiQuartic, published),
+            Self::Guided3 => guided::rules(n, 3),
+            Self::Guided4 => guided::rules(n, 4),
+            Self::Guided5 => guided::rules(n, 5),
+            Self::Guided6 => guided::rules(n, 6),
         }
     }
 
@@ -126,7 +177,7 @@ impl SchemeKind {
         }
     }
 
-    /// The control net on which the rules work, from a c-net relative to its limit point.
+    /// The control net on which the rules of schemes without a guide work, from a c-net relative to its limit point.
     pub(crate) fn net(self, cnet: &CNet) -> Vec<[f64; 3]> {
         match self.spline() {
             None => cnet.sectors.iter().flatten().copied().collect(),

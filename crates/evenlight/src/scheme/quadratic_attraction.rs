@@ -58,6 +58,7 @@ pub(crate) fn rules(n: usize, spline: Spline, published: bool) -> Option<Rules> 
         split: spline.split(),
         patches: spline.patches(&empty),
         quadratic: Some(QuadraticPart { from_net, lambda }),
+        guide: None,
     })
 }
 
@@ -85,6 +86,7 @@ pub(crate) fn point_augmented_rules(n: usize, spline: Spline, published: bool) -
         split: spline.split(),
         patches: spline.patches(&empty),
         quadratic: None,
+        guide: None,
     })
 }
 
@@ -93,7 +95,7 @@ fn is_special(node: usize) -> bool {
 }
 
 /// lambda = (c + 5 + sqrt((c + 1) (c + 9))) / 16, Catmull-Clark's subdominant eigenvalue.
-fn contraction(n: usize) -> f64 {
+pub(super) fn contraction(n: usize) -> f64 {
     let c = sector_cosine(n);
     (c + 5.0 + ((c + 1.0) * (c + 9.0)).sqrt()) / 16.0
 }

@@ -14,7 +14,7 @@
 //! The maps commute with turning by one sector, so a row is written for sector 0 only.
 
 use crate::angle::sector_cosine;
-use crate::net::{Expansion, NodeRef, turned};
+use crate::net::{CNET_NODES, CNet, Expansion, NodeRef, turned};
 use crate::point::{add, add_scaled};
 
 /// One row of a linear map: weights of nodes, written for sector 0.
@@ -24,7 +24,7 @@ pub(crate) type Row = Vec<(usize, f64)>;
 
 /// The linear rules of one scheme at one valence.
 ///
-/// The patches of a ring lie in three squares of each sector, one patch or 2 x 2 in each:
+/// The patches of a ring lie in three squares of each sector, one patch, 2 x 2 or 3 x 3 in each:
 ///
 /// ```text
 ///  b ^ line s                      a and b in [0,1] from the centre along lines s-1 and s;
@@ -46,13 +46,29 @@ pub(crate) struct Rules {
     pub(crate) refine: Vec<Row>,
     /// The degree of the patches in both parameters.
     pub(crate) degree: usize,
-    /// The patches along each side of a square: 1 or 2.
+    /// The patches along each side of a square: 1, 2 or 3.
     pub(crate) split: usize,
     /// The BB coefficients of the patches of sector 0.
     pub(crate) patches: Vec<PatchRule>,
     /// The part of a scheme that carries a quadratic q along.
     pub(crate) quadratic: Option<QuadraticPart>,
+    /// The part of a scheme that follows a guide.
+    pub(crate) guide: Option<GuidePart>,
 }
+
+/// How a guided scheme begins: the last 35 nodes of every sector are the powers of the guide's
+/// piece relative to the limit point, those of alpha, beta, gamma, delta, epsilon first; the others
+/// are the data along the outer border.
+#[derive(Clone, Debug)]
+pub(crate) struct GuidePart {
+    /// All nodes of sector 0 as weights of the nodes of a c-net, e the last.
+    pub(crate) from_cnet: Vec<Vec<f64>>,
+    /// The factor by which the guide is scaled down in each step.
+    pub(crate) lambda: f64,
+}
+
+/// The powers of a piece of a guide.
+const GUIDE_NODES: usize = 35;
 
 /// How a scheme with a quadratic q begins: the last five nodes of every sector are alpha, beta,
 /// gamma, delta, epsilon of q in that sector's coordinates, the others the control net.
@@ -82,9 +98,38 @@ impl Rules {
         self.valence * self.nodes_per_sector
     }
 
-    /// The number of nodes per sector without those of q.
+    /// The number of nodes per sector without those of q or of the guide.
     pub(crate) fn control_nodes_per_sector(&self) -> usize {
-        self.nodes_per_sector - if self.quadratic.is_some() { 5 } else { 0 }
+        let others = match (&self.quadratic, &self.guide) {
+            (Some(_), _) => 5,
+            (_, Some(_)) => GUIDE_NODES,
+            _ => 0,
+        };
+        self.nodes_per_sector - others
+    }
+
+    /// lambda of a scheme whose nodes number `control_nodes_per_sector()` and the next of every
+    /// sector are alpha and beta, the linear terms at the centre.
+    pub(crate) fn lambda_of_linear_terms(&self) -> Option<f64> {
+        let of_quadratic = self.quadratic.as_ref().map(|part| part.lambda);
+        of_quadratic.or(self.guide.as_ref().map(|part| part.lambda))
+    }
+
+    /// The net of a guided scheme from a c-net relative to its limit point; `None` for others.
+    pub(crate) fn guided_net(&self, cnet: &CNet) -> Option<Vec<[f64; 3]>> {
+        let part = self.guide.as_ref()?;
+        let nodes: Vec<[f64; 3]> = cnet.sectors.iter().flatten().copied().collect();
+        let mut net = Vec::with_capacity(self.num_nodes());
+        for s in 0..self.valence {
+            let (behind, ahead) = nodes.split_at(CNET_NODES * s);
+            let seen = || ahead.iter().chain(behind).chain([&cnet.center]);
+            net.extend(part.from_cnet.iter().map(|row| {
+                let mut sum = [0.0; 3];
+                row.iter().zip(seen()).for_each(|(&w, &p)| add_scaled(&mut sum, w, p));
+                sum
+            }));
+        }
+        Some(net)
     }
 
     /// The default q of a control net; `None` for schemes without q.

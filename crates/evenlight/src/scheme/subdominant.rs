@@ -15,7 +15,7 @@
 //! plane, the height of a net has no such part; it shrinks by about lambda^2.
 
 use super::Rules;
-use crate::angle::{cosine, sine};
+use crate::angle::{cosine, sector_cosine, sine};
 use crate::point::{Vector, add_scaled};
 
 /// The subdominant eigenvalue and what finds the tangential part of a net.
@@ -35,10 +35,10 @@ enum Part {
         /// omega^(-s) y / n for every node.
         left: Vec<[f64; 2]>,
     },
-    /// The scheme has a quadratic: its linear terms are the tangents, and the control net has no
-    /// part of its own that shrinks by lambda.
-    Quadratic {
-        /// The number of all nodes, and of those of the control net, of a sector.
+    /// The scheme has a quadratic or a guide: its linear terms are the tangents, and the other nodes
+    /// have no part of their own that shrinks by lambda.
+    Linear {
+        /// The number of all nodes, and of those before the linear terms, of a sector.
         nodes: [usize; 2],
         /// The net of the characteristic map.
         characteristic: Vec<Vector>,
@@ -51,8 +51,8 @@ impl Subdominant {
     /// Valence 2 (Catmull-Clark only) has no second direction: its Fourier block is real and the
     /// eigenvalue 1/4 not simple. Then nothing is tangential, and there is no tangent plane.
     pub(crate) fn new(rules: &Rules) -> Self {
-        if let Some(part) = &rules.quadratic {
-            return Self::of_quadratic(rules, part.lambda);
+        if let Some(lambda) = rules.lambda_of_linear_terms() {
+            return Self::of_linear_terms(rules, lambda);
         }
         if rules.valence < 3 {
             let none = vec![[0.0; 2]; rules.num_nodes()];
@@ -61,10 +61,10 @@ impl Subdominant {
         Self::of_fourier_block(rules)
     }
 
-    fn of_quadratic(rules: &Rules, lambda: f64) -> Self {
+    fn of_linear_terms(rules: &Rules, lambda: f64) -> Self {
         let nodes = [rules.nodes_per_sector, rules.control_nodes_per_sector()];
         let characteristic = attracted_net(rules, lambda);
-        Self { lambda, part: Part::Quadratic { nodes, characteristic } }
+        Self { lambda, part: Part::Linear { nodes, characteristic } }
     }
 
     /// Repeated squaring of the Fourier block leaves lambda^(2^k) x y^T; in that block the
@@ -105,7 +105,7 @@ impl Subdominant {
                 }
                 alpha
             }
-            Part::Quadratic { nodes: [_, control], .. } => [net[control + 1], net[*control]],
+            Part::Linear { nodes: [_, control], .. } => [net[control + 1], net[*control]],
         }
     }
 
@@ -122,7 +122,7 @@ impl Subdominant {
                     p[k] -= 2.0 * (alpha[0] * x[0] - alpha[1] * x[1]);
                 }
             }
-            Part::Quadratic { nodes: [all, control], .. } => {
+            Part::Linear { nodes: [all, control], .. } => {
                 for sector in net.chunks_mut(*all) {
                     sector[*control][k] = 0.0;
                     sector[*control + 1][k] = 0.0;
@@ -139,25 +139,34 @@ impl Subdominant {
     pub(crate) fn characteristic_net(&self) -> Vec<Vector> {
         match &self.part {
             Part::Fourier { right, .. } => right.iter().map(|x| [x[0], x[1], 0.0]).collect(),
-            Part::Quadratic { characteristic, .. } => characteristic.clone(),
+            Part::Linear { characteristic, .. } => characteristic.clone(),
         }
     }
 }
 
-/// The net that shrinks by lambda under the attraction of the linear q of the plane: the fixed
-/// point of x -> A x / lambda. The control net's own eigenvalues are below lambda^2, so every step
+/// The net that shrinks by lambda under the attraction of the linear terms of the plane: the fixed
+/// point of x -> A x / lambda. The eigenvalues of the other nodes are below lambda^2, so every step
 /// takes away half of what is missing or more.
 fn attracted_net(rules: &Rules, lambda: f64) -> Vec<Vector> {
-    let nothing = vec![[0.0; 3]; rules.valence * rules.control_nodes_per_sector()];
     let angle = std::f64::consts::TAU / rules.valence as f64;
     // Line 0 along x: line -1 of sector 0 is turned back by one sector.
-    let lines = [[cosine(angle), -sine(angle), 0.0], [1.0, 0.0, 0.0]];
-    let q = [lines[0], lines[1], [0.0; 3], [0.0; 3], [0.0; 3]];
-    let mut net = rules.with_quadratic(&nothing, q);
+    let mut lines = [[cosine(angle), -sine(angle), 0.0], [1.0, 0.0, 0.0]];
+    let mut net = vec![[0.0; 3]; rules.num_nodes()];
+    for sector in net.chunks_mut(rules.nodes_per_sector) {
+        sector[rules.control_nodes_per_sector()..][..2].copy_from_slice(&lines);
+        lines = next_lines(rules.valence, lines);
+    }
     for _ in 0..ATTRACTION_STEPS {
         net = rules.refine(&net).iter().map(|p| [p[0] / lambda, p[1] / lambda, 0.0]).collect();
     }
     net
+}
+
+/// The lines of the next sector.
+fn next_lines(n: usize, [a, b]: [Vector; 2]) -> [Vector; 2] {
+    let mut next = [-a[0], -a[1], -a[2]];
+    add_scaled(&mut next, 2.0 * sector_cosine(n), b);
+    [b, next]
 }
 
 /// 0.6^100 is far below rounding.
@@ -255,8 +264,8 @@ mod tests {
                 }
                 let mut rest = net.clone();
                 sub.remove_from_coordinate(0, &mut rest);
-                // With a quadratic only its linear terms are removed; the rest dies by itself.
-                for _ in 0..if kind.has_quadratic() { 80 } else { 0 } {
+                // With linear terms only those are removed; the rest dies by itself.
+                for _ in 0..if rules.lambda_of_linear_terms().is_some() { 80 } else { 0 } {
                     rest = rules.refine(&rest);
                 }
                 assert!(rest.iter().all(|p| p[0].abs() < 2e-14 * size), "{}", kind.name());

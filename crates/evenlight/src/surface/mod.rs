@@ -198,8 +198,9 @@ impl Surface {
     ///
     /// At an extraordinary point itself the position is the limit point and the normal the
     /// limit normal; derivatives do not exist there and are NaN, nor does curvature but for
-    /// schemes with a quadratic, where it is that of q ([`Rings::center_curvature`]). Anywhere
-    /// else, however near, all are exact to rounding ([`Rings::eval`]).
+    /// schemes with a quadratic or a guide, where it is that of q or of the guide
+    /// ([`Rings::center_curvature`]). Anywhere else, however near, all are exact to rounding
+    /// ([`Rings::eval`]).
     pub fn eval(&self, quad: QuadId, u: f64, v: f64) -> Option<SurfacePoint> {
         if u.is_nan() || v.is_nan() {
             return None;

@@ -1,7 +1,8 @@
 //! Tables of refinement weights: the generated files, and the one way to read them.
 //!
 //! The files `eg_nNN.rs` hold the rules of Evolving-Guide subdivision, read in [`eg`]; the files
-//! `qas_nNN.rs` those of Quadratic-Attraction subdivision, read in [`qas`]. They are exact integers
+//! `qas_nNN.rs` those of Quadratic-Attraction subdivision, read in [`qas`]; the files
+//! `guided_nNN.rs` the guides of Guided C2 subdivision, read in [`guided`]. They are exact integers
 //! over [`DENOMINATOR`]; the weight of the extraordinary point is never listed, being one minus the
 //! sum of all others. What a mirror symmetry repeats is, but for the convenience of whole rows,
 //! left out, and filled in by [`Mirror`].
@@ -24,6 +25,20 @@ mod eg_n13;
 mod eg_n14;
 mod eg_n15;
 mod eg_n16;
+mod guided;
+mod guided_n03;
+mod guided_n05;
+mod guided_n06;
+mod guided_n07;
+mod guided_n08;
+mod guided_n09;
+mod guided_n10;
+mod guided_n11;
+mod guided_n12;
+mod guided_n13;
+mod guided_n14;
+mod guided_n15;
+mod guided_n16;
 mod qas;
 mod qas_n03;
 mod qas_n05;
@@ -40,9 +55,11 @@ mod qas_n15;
 mod qas_n16;
 
 pub(crate) use eg::{EgWeights, eg_weights};
+pub(crate) use guided::{GuideWeights, guide_weights};
 pub(crate) use qas::{QasWeights, qas_weights};
 
 use eg::EgTable;
+use guided::GuidedTable;
 use qas::QasTable;
 
 /// The common denominator of all numerators, 10^18.
