@@ -10,17 +10,18 @@ const TOLERANCE: f64 = 1e-12;
 
 fn golden(n: usize) -> Value {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/golden/guided");
-    let file = std::fs::read_to_string(format!("{folder}/n{n:02}.json")).unwrap();
-    serde_json::from_str(&file).unwrap()
+    let file = std::fs::read_to_string(format!("{folder}/n{n:02}.json"))
+        .expect("a file of the repository");
+    serde_json::from_str(&file).expect("it is JSON")
 }
 
 fn point(value: &Value) -> [f64; 3] {
-    [0, 1, 2].map(|k| value[k].as_f64().unwrap())
+    [0, 1, 2].map(|k| value[k].as_f64().expect("three numbers"))
 }
 
 /// The c-net; nodes (1,0) (2,0) (1,1) (2,1) (1,2) (2,2) of each sector, then e.
 fn cnet(golden: &Value, n: usize) -> CNet {
-    let nodes = golden["cnet"].as_array().unwrap();
+    let nodes = golden["cnet"].as_array().expect("a list of nodes");
     let mut sectors = vec![[[0.0; 3]; 6]; n];
     for (s, k) in (0..n).flat_map(|s| (0..6).map(move |k| (s, k))) {
         let (a, b) = [(1, 0), (2, 0), (1, 1), (2, 1), (1, 2), (2, 2)][k];
