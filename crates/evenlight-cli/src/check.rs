@@ -220,7 +220,7 @@ fn histogram(counts: &BTreeMap<usize, usize>, of: &str) -> String {
 
 /// The sentence on points for which the default scheme has no rules.
 fn valence_warning(points: &[Extraordinary]) -> Option<String> {
-    let (scheme, rules) = (SchemeKind::EvolvingGuide, RuleSet::Generated);
+    let (scheme, rules) = (SchemeKind::default(), RuleSet::default());
     let without_rules = |p: &&Extraordinary| p.is_covered && !scheme.has_rules(rules, p.valence);
     let (count, highest) = points
         .iter()
