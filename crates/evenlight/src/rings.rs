@@ -83,6 +83,10 @@ pub struct Rings {
 /// 2^-64 is made of the last of them anew, in time proportional to its depth.
 const CACHED_RINGS: usize = 64;
 
+/// Tangents shorter than this part of the net, or closer to parallel, are none: rounding leaves
+/// 1e-16 where they should vanish, and a sound cage stays far above.
+const FLATTEST: f64 = 1e-12;
+
 /// Where X, Y and Z point, and how Z shrinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
@@ -354,10 +358,8 @@ impl Frame {
         let [a, b] = subdominant.tangents(net);
         let normal = cross(b, a);
         let longer = dot(a, a).max(dot(b, b));
-        // Rounding leaves 1e-16 of the net's size in tangents that should vanish, and in the
-        // angle between tangents that should be parallel; a sound cage stays far above both.
-        let size = net.iter().map(|&p| dot(p, p)).fold(0.0, f64::max);
-        let has_plane = longer > 1e-24 * size && norm(normal) > 1e-12 * longer;
+        let size_sq = net.iter().map(|&p| dot(p, p)).fold(0.0, f64::max);
+        let has_plane = longer > FLATTEST * FLATTEST * size_sq && norm(normal) > FLATTEST * longer;
         if !has_plane {
             let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
             return Self { axes, has_plane };
