@@ -16,8 +16,11 @@ use evenlight::{Cage, RuleSet, SchemeKind, Surface, SurfaceOptions};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// The pictures and what makes them.
-const PICTURES: [(&str, fn() -> Result<Picture>); 5] = [
+/// What makes a picture.
+type Make = fn() -> Result<Picture>;
+
+/// The pictures.
+const PICTURES: [(&str, Make); 5] = [
     ("chair.png", chair),
     ("pinch.png", pinch),
     ("family.png", family),

@@ -114,8 +114,8 @@ impl Rings {
     /// The surface over a d-net with c_0 by [`DNet::center`]; `None` if the scheme has no rules
     /// for its valence or does not work on d-nets.
     pub fn from_dnet(dnet: &DNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
-        let center = dnet.center(kind.spline()?);
         let rules = Arc::new(ValenceRules::new(kind, set, dnet.valence())?);
+        let center = dnet.center(kind.spline()?);
         let net: Vec<Vector> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
         Some(Self::start(&net, center, None, rules))
     }
