@@ -2,6 +2,7 @@
 
 mod record;
 
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::sync::Arc;
 
@@ -39,9 +40,15 @@ pub struct AnalyzeArgs {
     #[command(flatten)]
     q: QArg,
 
-    /// Number of rings around every extraordinary point; ring k reaches to 2^-k of a sector
-    #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=24))]
+    /// Number of rings around every extraordinary point, 1 to 100; ring k reaches to 2^-k of a
+    /// sector
+    #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=100))]
     rings: u8,
+
+    /// All extraordinary points in the table, not only the dozen where H varies most near the
+    /// point (the JSON has all anyway)
+    #[arg(long)]
+    all: bool,
 
     /// JSON instead of a table, with the ranges of every ring
     #[arg(long)]
@@ -82,7 +89,7 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     if args.json {
         args.output.write_json(&Document::new(&analyses, args.rings.into()))
     } else {
-        args.output.write(|out| write_text(&analyses, out))
+        args.output.write(|out| write_text(&analyses, args.all, out))
     }
 }
 
@@ -143,15 +150,44 @@ struct Point<'a> {
     shape: &'a PointShape,
 }
 
-fn write_text(analyses: &[Analysis], out: &mut dyn Write) -> io::Result<()> {
-    write!(out, "{}\n{}", point_table(analyses, |_| true), jump_table(analyses))?;
-    out.write_all(b"\n")?;
+/// The most points of a table that is to be short.
+const SHORT: usize = 12;
+
+fn write_text(analyses: &[Analysis], all: bool, out: &mut dyn Write) -> io::Result<()> {
+    let shown = if all { None } else { most_varied(analyses) };
+    let wanted = |point: usize| shown.as_ref().is_none_or(|shown| shown.contains(&point));
+    writeln!(out, "{}", point_table(analyses, |point, _| wanted(point)))?;
+    if let Some(shown) = &shown {
+        let count = analyses[0].report.points.len();
+        writeln!(out, "{} of {count} points; all of them with --all\n", shown.len())?;
+    }
+    writeln!(out, "{}", jump_table(analyses))?;
     LEGEND.iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
-/// Ranges and jumps of the extraordinary points that are `wanted`, the schemes one below the
-/// other.
-pub fn point_table(analyses: &[Analysis], wanted: impl Fn(&ExtraordinaryPoint) -> bool) -> Table {
+/// The points with the longest range of H in the last ring, under any of the schemes; `None` if
+/// there are not more than [`SHORT`] in all.
+fn most_varied(analyses: &[Analysis]) -> Option<BTreeSet<usize>> {
+    let count = analyses[0].report.points.len();
+    if count <= SHORT {
+        return None;
+    }
+    let mut spans = vec![0.0_f64; count];
+    for analysis in analyses {
+        let largest = spans.iter_mut().zip(analysis.last_spans());
+        largest.for_each(|(span, own)| *span = span.max(own));
+    }
+    let mut points: Vec<usize> = (0..count).collect();
+    points.sort_by(|&a, &b| spans[b].total_cmp(&spans[a]));
+    Some(points.into_iter().take(SHORT).collect())
+}
+
+/// Ranges of the extraordinary points that are `wanted` (by their index and place), the schemes
+/// one below the other.
+pub fn point_table(
+    analyses: &[Analysis],
+    wanted: impl Fn(usize, &ExtraordinaryPoint) -> bool,
+) -> Table {
     let mut table = Table::new(&[
         "point",
         "valence",
@@ -165,13 +201,10 @@ pub fn point_table(analyses: &[Analysis], wanted: impl Fn(&ExtraordinaryPoint) -
         "H around rings",
         "energy",
         "H jump",
-        "position jump",
-        "tangent jump",
-        "curvature jump",
     ]);
     let mut rows: Vec<(&str, Point)> = Vec::new();
     for analysis in analyses {
-        let points = analysis.points().filter(|point| wanted(point.place));
+        let points = analysis.points().filter(|p| wanted(p.report.point, p.place));
         rows.extend(points.map(|point| (analysis.scheme(), point)));
     }
     // All schemes have the same points; the sort is stable and keeps the schemes in order.
@@ -182,12 +215,10 @@ pub fn point_table(analyses: &[Analysis], wanted: impl Fn(&ExtraordinaryPoint) -
 
 fn point_row(scheme: &str, Point { place, report, shape }: Point) -> Vec<String> {
     let RingCurvature { gauss, mean } = report.total;
-    let Jumps { position, tangent_plane, curvature, .. } = report.jumps;
     let ranges = [gauss.min, gauss.max, mean.min, mean.max, growth(report)];
     let shape = [shape.along_rays, shape.around_rings, shape.energy];
-    let jumps = [report.mean_jump_across_rings, position, tangent_plane, curvature];
     let names = [point_name(place), place.valence.to_string(), scheme.to_owned()];
-    let numbers = ranges.into_iter().chain(shape).chain(jumps);
+    let numbers = ranges.into_iter().chain(shape).chain([report.mean_jump_across_rings]);
     names.into_iter().chain(numbers.map(short)).collect()
 }
 

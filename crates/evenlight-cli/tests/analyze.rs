@@ -108,9 +108,25 @@ fn the_table_has_a_line_per_point_and_scheme() {
     for column in ["K min", "K max", "H min", "H max", "growth", "along rays", "around rings"] {
         assert!(text.lines().next().unwrap().contains(column), "{column}");
     }
-    for column in ["energy", "H jump", "position jump", "tangent jump", "curvature jump"] {
+    for column in ["energy", "H jump"] {
         assert!(text.lines().next().unwrap().contains(column), "{column}");
     }
+    let jumps = text.lines().find(|line| line.starts_with("all borders")).unwrap();
+    for column in ["position jump", "tangent jump", "curvature jump"] {
+        assert!(jumps.contains(column), "{column}");
+    }
+}
+
+#[test]
+fn the_table_is_short_unless_all_points_are_asked_for() {
+    let blob = cage("own_blob_quadriflow_300.obj");
+    let rows = |args: &[&str]| {
+        let text = stdout(&run(args));
+        assert_eq!(text.contains("12 of 34 points; all of them with --all"), args.len() == 2);
+        text.lines().filter(|line| line.starts_with("vertex")).count()
+    };
+    assert_eq!(rows(&["analyze", arg(&blob)]), 2 * 12);
+    assert_eq!(rows(&["analyze", arg(&blob), "--all"]), 2 * 34);
 }
 
 #[test]
