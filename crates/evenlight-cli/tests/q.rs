@@ -8,7 +8,7 @@ use common::{CONE, PILLOW, arg, cage, code, file, json, numbers, run, run_on, st
 use serde_json::{Value, json};
 
 /// A cage with triangles, pentagons and vertices of several valences.
-const NGONS: &str = "own_ngons.obj";
+const NGONS: &str = "own_polygons.obj";
 
 fn q(cage_name: &str, args: &[&str]) -> String {
     let cage = cage(cage_name);

@@ -311,7 +311,7 @@ fn curvature_of_quadratic_attraction_has_a_limit_in_every_direction() {
 /// and of first derivatives, which the C2 borders do not disturb.
 #[test]
 fn derivatives_agree_with_differences_at_random_points() {
-    for name in ["own_ngons.obj", "own_blob_quadriflow_300.obj", "obstacle/pillow_n8.obj"] {
+    for name in ["own_polygons.obj", "own_blob_quadriflow_300.obj", "obstacle/pillow_n8.obj"] {
         for scheme in SchemeKind::ALL {
             let surface = common::surface(&common::cage(name), scheme);
             let mut random = Random::new(13);

@@ -173,7 +173,7 @@ fn the_first_corner_of_a_face_does_not_matter() {
 /// The same with n-gons, whose quads are numbered by corner.
 #[test]
 fn the_order_of_n_gons_and_their_corners_does_not_matter() {
-    let mesh = common::mesh("own_ngons.obj");
+    let mesh = common::mesh("own_polygons.obj");
     let count = mesh.faces.len();
     let faces: Vec<Vec<u32>> = mesh.faces.iter().map(|f| f.iter().map(|v| v.0).collect()).collect();
     // Faces in reverse order, each beginning one corner later.
