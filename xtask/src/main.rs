@@ -9,6 +9,8 @@ mod bench;
 mod demo_cage;
 #[cfg(feature = "library")]
 mod pictures;
+#[cfg(feature = "library")]
+mod shape;
 mod tables;
 mod tidy;
 
@@ -28,6 +30,8 @@ enum Chore {
     DemoCage(demo_cage::Arguments),
     #[cfg(feature = "library")]
     Pictures(pictures::Arguments),
+    #[cfg(feature = "library")]
+    Shape(shape::Arguments),
     Tables(tables::Arguments),
     Tidy(tidy::Arguments),
 }
@@ -50,6 +54,8 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
         Chore::DemoCage(arguments) => demo_cage::run(arguments),
         #[cfg(feature = "library")]
         Chore::Pictures(arguments) => pictures::run(arguments),
+        #[cfg(feature = "library")]
+        Chore::Shape(arguments) => shape::run(arguments),
         Chore::Tables(arguments) => tables::run(arguments),
         Chore::Tidy(arguments) => tidy::run(arguments),
     }

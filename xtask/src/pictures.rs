@@ -16,8 +16,11 @@ use evenlight::{Cage, RuleSet, SchemeKind, Surface, SurfaceOptions};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// The pictures and what makes them.
-const PICTURES: [(&str, fn() -> Result<Picture>); 5] = [
+/// What makes a picture.
+type Make = fn() -> Result<Picture>;
+
+/// The pictures.
+const PICTURES: [(&str, Make); 5] = [
     ("chair.png", chair),
     ("pinch.png", pinch),
     ("family.png", family),
@@ -66,7 +69,7 @@ fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface> {
 /// The demo object, as the first thing of the README.
 fn chair() -> Result<Picture> {
     let surface = surface(&cage("crates/evenlight-cli/assets/demo.obj")?, SchemeKind::Qas4)?;
-    let view = View { azimuth: 35.0, elevation: 30.0, ..View::default() };
+    let view = View { azimuth: -30.0, elevation: 28.0, ..View::default() };
     let options = RenderOptions { size: [1000, 800], view, ..RenderOptions::default() };
     Ok(render(&surface, &options)?)
 }
@@ -112,16 +115,16 @@ fn quadratic() -> Result<Picture> {
     let q = *default.rings(0).quadratic().ok_or("qas4 has a quadratic")?;
     let normal = default.rings(0).normal();
     let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let lifted = q.transformed(identity, scale(0.7, normal));
+    let lifted = q.transformed(identity, scale(0.25, normal));
     let about_center = |matrix: [[f64; 3]; 3]| {
         let image = q.transformed(matrix, [0.0; 3]).center();
         let back = [0, 1, 2].map(|k| q.center()[k] - image[k]);
         q.transformed(matrix, back)
     };
-    let tilted = about_center([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.2, 0.0, 1.0]]);
+    let tilted = about_center([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.35, 0.0, 1.0]]);
     let mut bent = q;
     for k in [2, 5] {
-        bent.coefs[k] = add(bent.coefs[k], scale(0.25, normal));
+        bent.coefs[k] = add(bent.coefs[k], scale(0.06, normal));
     }
     let with = |q: &Quadratic| -> Result<Surface> {
         let mut surface = surface(&cage, SchemeKind::Qas4)?;
@@ -132,7 +135,13 @@ fn quadratic() -> Result<Picture> {
     let mut panels = vec![("default q", &default)];
     panels.extend(others.iter().map(|(name, surface)| (*name, surface)));
     let view = View { azimuth: 20.0, elevation: 40.0, zoom: 1.6, target: Some(q.center()) };
-    let options = RenderOptions { size: [1400, 350], view, ..RenderOptions::default() };
+    let options = RenderOptions {
+        style: Style::Highlight,
+        size: [1400, 350],
+        view,
+        stripes: 16,
+        ..RenderOptions::default()
+    };
     Ok(compare(&panels, &options)?)
 }
 

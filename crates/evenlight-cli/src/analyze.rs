@@ -1,23 +1,28 @@
 //! `evenlight analyze`: curvature and continuity around every extraordinary point.
 
+mod record;
+
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::sync::Arc;
 
 use clap::Args;
 use evenlight::analyse::continuity::Jumps;
 use evenlight::analyse::curvature::{
-    CurvatureReport, PointReport, Range, RingCurvature, curvature_report,
+    CurvatureReport, PointReport, RingCurvature, curvature_report,
 };
+use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
-use serde::Serialize;
+use evenlight::{SchemeKind, Surface, SurfaceOptions};
 
 use crate::error::Failure;
 use crate::input::{self, Source};
-use crate::options::{RulesArg, rules_name, scheme_parser};
+use crate::options::{RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
-use crate::table::{Table, short};
+use crate::q::QArg;
+use crate::table::{Table, point_name, short};
+use record::Document;
 
 /// Arguments of `evenlight analyze`.
 #[derive(Args, Debug)]
@@ -26,15 +31,24 @@ pub struct AnalyzeArgs {
     cage: Source,
 
     /// Schemes to compare
-    #[arg(long, value_delimiter = ',', default_value = "cc,eg", value_parser = scheme_parser())]
+    #[arg(long, value_delimiter = ',', default_value = "cc,qas4", value_parser = scheme_parser())]
     schemes: Vec<SchemeKind>,
 
     #[command(flatten)]
     rules: RulesArg,
 
-    /// Number of rings around every extraordinary point; ring k reaches to 2^-k of a sector
-    #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=24))]
+    #[command(flatten)]
+    q: QArg,
+
+    /// Number of rings around every extraordinary point, 1 to 100; ring k reaches to 2^-k of a
+    /// sector
+    #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=100))]
     rings: u8,
+
+    /// All extraordinary points in the table, not only the dozen where H varies most near the
+    /// point (the JSON has all anyway)
+    #[arg(long)]
+    all: bool,
 
     /// JSON instead of a table, with the ranges of every ring
     #[arg(long)]
@@ -46,29 +60,36 @@ pub struct AnalyzeArgs {
 }
 
 /// What the columns of the tables mean.
-pub const LEGEND: [&str; 3] = [
+pub const LEGEND: [&str; 5] = [
     "K (1/unit^2), H (1/unit): Gauss and mean curvature over all rings.",
     "growth: the length of the range of H in the last ring over that in the first.",
+    "H along rays, around rings: oscillation, that is how far H rises and falls in vain on the way \
+     to the point, and how much more around it than on the outer border of ring 1; relative to \
+     the curvature on that border.",
+    "energy: the integral of |grad H|^2 over rings 1 to 4 (1/unit^2), for comparison of schemes.",
     "jumps: of H between rings (1/unit); of position (units), tangent plane (radians) and \
      curvature (1/unit) across all patch borders.",
 ];
 
 /// Runs `evenlight analyze`.
 pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
+    let edits = args.q.read(&args.cage, &args.schemes)?;
     let cage = input::read_cage(&args.cage)?;
     let progress = Progress::new(args.schemes.len(), quiet);
     let mut analyses = Vec::new();
     for &scheme in &args.schemes {
         let options = SurfaceOptions { scheme, rules: args.rules.rules.into() };
-        progress.stage(format!("Analysing {}", options.scheme.name()));
-        analyses.push(Analysis::of(&cage, options, args.rings.into(), &args.cage)?);
+        progress.stage(format!("Analysing {}", scheme.name()));
+        let mut surface = input::build(Arc::clone(&cage), options, &args.cage)?;
+        edits.apply(&mut surface)?;
+        analyses.push(Analysis::of(surface, args.rings.into()));
         progress.step();
     }
     input::report_omitted(&analyses[0].surface, &args.cage)?;
     if args.json {
         args.output.write_json(&Document::new(&analyses, args.rings.into()))
     } else {
-        args.output.write(|out| write_text(&analyses, out))
+        args.output.write(|out| write_text(&analyses, args.all, out))
     }
 }
 
@@ -76,19 +97,15 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
 pub struct Analysis {
     surface: Surface,
     report: CurvatureReport,
+    shapes: Vec<PointShape>,
 }
 
 impl Analysis {
-    /// Measures the surface over `cage`, which was read from `source`.
-    pub fn of(
-        cage: &Arc<Cage>,
-        options: SurfaceOptions,
-        rings: usize,
-        source: &Source,
-    ) -> Result<Self, Failure> {
-        let surface = input::build(Arc::clone(cage), options, source)?;
+    /// Measures `surface` over `rings` rings around every extraordinary point.
+    pub fn of(surface: Surface, rings: usize) -> Self {
         let report = curvature_report(&surface, rings);
-        Ok(Self { surface, report })
+        let shapes = shape(&surface, rings);
+        Self { surface, report, shapes }
     }
 
     /// The surface.
@@ -102,6 +119,12 @@ impl Analysis {
         self.report.points.iter().map(last)
     }
 
+    /// The largest absolute mean curvature around an extraordinary point, by its index.
+    pub fn largest_mean(&self, point: usize) -> f64 {
+        let mean = self.report.points[point].total.mean;
+        mean.max.abs().max(mean.min.abs())
+    }
+
     /// The largest of the growths that [`point_table`] lists.
     pub fn worst_growth(&self) -> f64 {
         self.report.points.iter().map(growth).fold(0.0, f64::max)
@@ -111,20 +134,60 @@ impl Analysis {
         self.surface.options().scheme.name()
     }
 
-    fn place(&self, report: &PointReport) -> &ExtraordinaryPoint {
-        &self.surface.extraordinary_points()[report.point]
+    /// Every point with what was measured there.
+    fn points(&self) -> impl Iterator<Item = Point<'_>> {
+        let places = self.surface.extraordinary_points().iter();
+        let measured = self.report.points.iter().zip(&self.shapes);
+        places.zip(measured).map(|(place, (report, shape))| Point { place, report, shape })
     }
 }
 
-fn write_text(analyses: &[Analysis], out: &mut dyn Write) -> io::Result<()> {
-    write!(out, "{}\n{}", point_table(analyses, |_| true), jump_table(analyses))?;
-    out.write_all(b"\n")?;
+/// An extraordinary point and what was measured there.
+#[derive(Clone, Copy)]
+struct Point<'a> {
+    place: &'a ExtraordinaryPoint,
+    report: &'a PointReport,
+    shape: &'a PointShape,
+}
+
+/// The most points of a table that is to be short.
+const SHORT: usize = 12;
+
+fn write_text(analyses: &[Analysis], all: bool, out: &mut dyn Write) -> io::Result<()> {
+    let shown = if all { None } else { most_varied(analyses) };
+    let wanted = |point: usize| shown.as_ref().is_none_or(|shown| shown.contains(&point));
+    writeln!(out, "{}", point_table(analyses, |point, _| wanted(point)))?;
+    if let Some(shown) = &shown {
+        let count = analyses[0].report.points.len();
+        writeln!(out, "{} of {count} points; all of them with --all\n", shown.len())?;
+    }
+    writeln!(out, "{}", jump_table(analyses))?;
     LEGEND.iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
-/// Ranges and jumps of the extraordinary points that are `wanted`, the schemes one below the
-/// other.
-pub fn point_table(analyses: &[Analysis], wanted: impl Fn(&ExtraordinaryPoint) -> bool) -> Table {
+/// The points with the longest range of H in the last ring, under any of the schemes; `None` if
+/// there are not more than [`SHORT`] in all.
+fn most_varied(analyses: &[Analysis]) -> Option<BTreeSet<usize>> {
+    let count = analyses[0].report.points.len();
+    if count <= SHORT {
+        return None;
+    }
+    let mut spans = vec![0.0_f64; count];
+    for analysis in analyses {
+        let largest = spans.iter_mut().zip(analysis.last_spans());
+        largest.for_each(|(span, own)| *span = span.max(own));
+    }
+    let mut points: Vec<usize> = (0..count).collect();
+    points.sort_by(|&a, &b| spans[b].total_cmp(&spans[a]));
+    Some(points.into_iter().take(SHORT).collect())
+}
+
+/// Ranges of the extraordinary points that are `wanted` (by their index and place), the schemes
+/// one below the other.
+pub fn point_table(
+    analyses: &[Analysis],
+    wanted: impl Fn(usize, &ExtraordinaryPoint) -> bool,
+) -> Table {
     let mut table = Table::new(&[
         "point",
         "valence",
@@ -134,28 +197,29 @@ pub fn point_table(analyses: &[Analysis], wanted: impl Fn(&ExtraordinaryPoint) -
         "H min",
         "H max",
         "growth",
+        "H along rays",
+        "H around rings",
+        "energy",
         "H jump",
-        "position jump",
-        "tangent jump",
-        "curvature jump",
     ]);
-    let points = analyses.first().map_or(&[][..], |a| a.surface.extraordinary_points());
-    let points = points.iter().enumerate().filter(|(_, place)| wanted(place));
-    for (k, place) in points {
-        for analysis in analyses {
-            table.push(point_row(analysis.scheme(), place, &analysis.report.points[k]));
-        }
+    let mut rows: Vec<(&str, Point)> = Vec::new();
+    for analysis in analyses {
+        let points = analysis.points().filter(|p| wanted(p.report.point, p.place));
+        rows.extend(points.map(|point| (analysis.scheme(), point)));
     }
+    // All schemes have the same points; the sort is stable and keeps the schemes in order.
+    rows.sort_by_key(|(_, point)| point.report.point);
+    rows.into_iter().for_each(|(scheme, point)| table.push(point_row(scheme, point)));
     table
 }
 
-fn point_row(scheme: &str, place: &ExtraordinaryPoint, report: &PointReport) -> Vec<String> {
+fn point_row(scheme: &str, Point { place, report, shape }: Point) -> Vec<String> {
     let RingCurvature { gauss, mean } = report.total;
-    let Jumps { position, tangent_plane, curvature, .. } = report.jumps;
     let ranges = [gauss.min, gauss.max, mean.min, mean.max, growth(report)];
-    let jumps = [report.mean_jump_across_rings, position, tangent_plane, curvature];
-    let names = [name(place), place.valence.to_string(), scheme.to_owned()];
-    names.into_iter().chain(ranges.into_iter().chain(jumps).map(short)).collect()
+    let shape = [shape.along_rays, shape.around_rings, shape.energy];
+    let names = [point_name(place), place.valence.to_string(), scheme.to_owned()];
+    let numbers = ranges.into_iter().chain(shape).chain([report.mean_jump_across_rings]);
+    names.into_iter().chain(numbers.map(short)).collect()
 }
 
 /// The largest jumps over all patch borders of each surface.
@@ -169,139 +233,9 @@ pub fn jump_table(analyses: &[Analysis]) -> Table {
     table
 }
 
-fn name(place: &ExtraordinaryPoint) -> String {
-    match (place.vertex, place.face) {
-        (Some(v), _) => format!("vertex {}", v.0),
-        (_, Some(f)) => format!("face {}", f.0),
-        _ => String::new(),
-    }
-}
-
 /// How much longer the range of H is in the last ring than in the first: above 1 where
 /// curvature oscillates more and more, as under pinched highlight lines.
 fn growth(report: &PointReport) -> f64 {
     let length = |ring: Option<&RingCurvature>| ring.map_or(f64::NAN, |r| r.mean.length());
     length(report.rings.last()) / length(report.rings.first())
-}
-
-/// The JSON document.
-#[derive(Serialize)]
-pub struct Document {
-    rings: usize,
-    schemes: Vec<SchemeRecord>,
-}
-
-/// What was measured with one scheme.
-#[derive(Serialize)]
-struct SchemeRecord {
-    scheme: &'static str,
-    /// `null` for schemes without tables.
-    rules: Option<&'static str>,
-    /// One record per extraordinary vertex, then per centre of an n-gon.
-    points: Vec<PointRecord>,
-    /// The largest jumps across all patch borders of the surface.
-    jumps: JumpRecord,
-}
-
-/// What was measured around one extraordinary point.
-#[derive(Serialize)]
-struct PointRecord {
-    /// `null` at the centre of an n-gon, whose number is then in `face`.
-    vertex: Option<u32>,
-    face: Option<u32>,
-    valence: usize,
-    level: usize,
-    /// Gauss curvature over all rings, in 1/unit^2.
-    gauss: RangeRecord,
-    /// Mean curvature over all rings, in 1/unit.
-    mean: RangeRecord,
-    /// The range of the mean curvature in the last ring over that in the first.
-    mean_span_growth: f64,
-    /// The largest jump of the mean curvature across a border between rings, in 1/unit.
-    mean_jump_across_rings: f64,
-    /// The largest jumps across the borders of all patches around the point.
-    jumps: JumpRecord,
-    rings: Vec<RingRecord>,
-}
-
-/// The ranges in one ring.
-#[derive(Serialize)]
-struct RingRecord {
-    ring: usize,
-    gauss: RangeRecord,
-    mean: RangeRecord,
-}
-
-/// A range; both ends are `null` if there is no value.
-#[derive(Serialize)]
-struct RangeRecord {
-    min: f64,
-    max: f64,
-}
-
-/// The largest jumps.
-#[derive(Serialize)]
-struct JumpRecord {
-    /// In units of the cage.
-    position: f64,
-    /// The angle between the normals, in radians.
-    tangent_plane: f64,
-    /// Of the principal curvatures, in 1/unit.
-    curvature: f64,
-    /// Of the derivatives up to order two in matched parameters, relative to the patch.
-    parametric: f64,
-}
-
-impl Document {
-    /// The document on `analyses` over `rings` rings.
-    pub fn new(analyses: &[Analysis], rings: usize) -> Self {
-        Self { rings, schemes: analyses.iter().map(SchemeRecord::new).collect() }
-    }
-}
-
-impl SchemeRecord {
-    fn new(analysis: &Analysis) -> Self {
-        let point = |report| PointRecord::new(analysis.place(report), report);
-        Self {
-            scheme: analysis.scheme(),
-            rules: rules_name(analysis.surface.options()),
-            points: analysis.report.points.iter().map(point).collect(),
-            jumps: analysis.report.jumps.into(),
-        }
-    }
-}
-
-impl PointRecord {
-    fn new(place: &ExtraordinaryPoint, report: &PointReport) -> Self {
-        let ring = |(k, r): (usize, &RingCurvature)| RingRecord {
-            ring: k + 1,
-            gauss: r.gauss.into(),
-            mean: r.mean.into(),
-        };
-        Self {
-            vertex: place.vertex.map(|v| v.0),
-            face: place.face.map(|f| f.0),
-            valence: place.valence,
-            level: place.level,
-            gauss: report.total.gauss.into(),
-            mean: report.total.mean.into(),
-            mean_span_growth: growth(report),
-            mean_jump_across_rings: report.mean_jump_across_rings,
-            jumps: report.jumps.into(),
-            rings: report.rings.iter().enumerate().map(ring).collect(),
-        }
-    }
-}
-
-impl From<Range> for RangeRecord {
-    fn from(range: Range) -> Self {
-        Self { min: range.min, max: range.max }
-    }
-}
-
-impl From<Jumps> for JumpRecord {
-    fn from(jumps: Jumps) -> Self {
-        let Jumps { position, tangent_plane, curvature, parametric } = jumps;
-        Self { position, tangent_plane, curvature, parametric }
-    }
 }

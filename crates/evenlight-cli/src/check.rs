@@ -218,20 +218,29 @@ fn histogram(counts: &BTreeMap<usize, usize>, of: &str) -> String {
     format!("{} {of}", entries.join(", "))
 }
 
+/// The most points that a warning names.
+const LISTED: usize = 8;
+
 /// The sentence on points for which the default scheme has no rules.
 fn valence_warning(points: &[Extraordinary]) -> Option<String> {
-    let (scheme, rules) = (SchemeKind::EvolvingGuide, RuleSet::Generated);
+    let (scheme, rules) = (SchemeKind::default(), RuleSet::default());
     let without_rules = |p: &&Extraordinary| p.is_covered && !scheme.has_rules(rules, p.valence);
-    let (count, highest) = points
-        .iter()
-        .filter(without_rules)
-        .fold((0, 0), |(count, highest), p| (count + 1, p.valence.max(highest)));
-    (count > 0).then(|| {
-        format!(
-            "{count} extraordinary points have valences up to {highest}, but the scheme {} has \
-             rules for {}: only cc can be used",
-            scheme.name(),
-            scheme.valences(rules)
-        )
-    })
+    let name = |p: &Extraordinary| match p.place {
+        Place::Vertex(v) => format!("vertex {} has valence {}", v.0, p.valence),
+        Place::FaceCentre(f) => format!("face {} has {} corners", f.0, p.valence),
+    };
+    let mut names: Vec<String> = points.iter().filter(without_rules).map(name).collect();
+    if names.is_empty() {
+        return None;
+    }
+    let more = names.len().saturating_sub(LISTED);
+    names.truncate(LISTED);
+    if more > 0 {
+        names.push(format!("{more} more"));
+    }
+    Some(format!(
+        "all schemes but cc have rules for valences {} only: {} (numbers from 0)",
+        scheme.valences(rules),
+        names.join(", ")
+    ))
 }

@@ -1,7 +1,7 @@
 //! `evenlight demo`: all subcommands on a cage of ours, and a report.
 //!
-//! Every file but the cage, the points and the report is made by a command that the report
-//! shows: whoever types it in the folder gets the same bytes.
+//! Every file but the cage, the points, the edited quadratic and the report is made by a command
+//! that the report shows: whoever types it in the folder gets the same bytes.
 
 mod report;
 mod steps;
@@ -23,9 +23,10 @@ use subject::Subject;
 /// A closed body with extraordinary vertices of valence 3, 5, 6 and 8.
 const CAGE: &str = include_str!("../assets/demo.obj");
 
-/// The names of the two files from which all others are made.
+/// The names of the files from which all others are made.
 const CAGE_FILE: &str = "cage.obj";
 const POINTS_FILE: &str = "points.csv";
+const EDIT_FILE: &str = "edit.json";
 
 /// Arguments of `evenlight demo`.
 #[derive(Args, Debug)]
@@ -34,7 +35,7 @@ pub struct DemoArgs {
     #[arg(value_name = "DIR", default_value = "evenlight-demo")]
     folder: PathBuf,
 
-    /// Width and height of single pictures in pixels; comparisons have 4/3 of the width and
+    /// Width and height of single pictures in pixels; comparisons have 3/2 of the width and
     /// 2/3 of the height
     #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = parse_size)]
     size: [usize; 2],
@@ -54,8 +55,10 @@ pub fn run(args: &DemoArgs, quiet: bool) -> Result<(), Failure> {
     let subject = Subject::new(&folder.source(CAGE_FILE))?;
     let close_ups = subject.close_ups();
     folder.write(POINTS_FILE, &subject.points_towards(&close_ups))?;
+    let handle = subject.handle().expect("our cage has extraordinary vertices");
+    folder.write(EDIT_FILE, &handle.edit())?;
 
-    let steps = steps(&close_ups, args.size);
+    let steps = steps(&close_ups, &handle, args.size);
     let progress = Progress::new(steps.len(), quiet);
     for step in &steps {
         progress.stage(step.file.clone());
@@ -87,7 +90,7 @@ impl Folder {
 
     /// The words of a step's command with its files in this folder.
     fn words(&self, step: &Step) -> Vec<std::ffi::OsString> {
-        let is_file = |word: &str| [&step.file, CAGE_FILE, POINTS_FILE].contains(&word);
+        let is_file = |word: &str| [&step.file, CAGE_FILE, POINTS_FILE, EDIT_FILE].contains(&word);
         let words = step.command.split(' ');
         words.map(|w| if is_file(w) { self.path.join(w).into() } else { w.into() }).collect()
     }

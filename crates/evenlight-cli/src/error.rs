@@ -31,11 +31,12 @@ impl Failure {
     pub fn report(&self) -> ExitCode {
         match self {
             Self::Usage(message) => {
+                let message = printable(message);
                 eprintln!("error: {message}\n\nFor more information, try '--help'.");
                 ExitCode::from(2)
             }
             Self::Unusable(message) => {
-                eprintln!("error: {message}");
+                eprintln!("error: {}", printable(message));
                 ExitCode::from(1)
             }
             Self::ReaderGone => ExitCode::SUCCESS,
@@ -45,5 +46,25 @@ impl Failure {
 
 /// Says on stderr something that the user should know though the run goes on.
 pub fn warn(message: impl Display) {
-    eprintln!("warning: {message}");
+    eprintln!("warning: {}", printable(&message.to_string()));
+}
+
+/// `text` with its control characters spelled out, but for the ends of lines: what comes from a
+/// file must not steer the terminal.
+fn printable(text: &str) -> String {
+    let steers = |c: char| c.is_control() && c != '\n';
+    let spelled = |c: char| if steers(c) { c.escape_default().to_string() } else { c.to_string() };
+    text.chars().map(spelled).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_are_spelled_out() {
+        assert_eq!(printable("a\x1b[2J\r\tb\u{9b}"), "a\\u{1b}[2J\\r\\tb\\u{9b}");
+        let harmless = "kubus \u{e9}, `\u{fffd}` \"x\" \\ \u{1f9ca}\nnext line";
+        assert_eq!(printable(harmless), harmless);
+    }
 }

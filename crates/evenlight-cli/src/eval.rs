@@ -32,6 +32,10 @@ pub struct EvalArgs {
     /// The answers: the input columns, then x,y,z, the derivatives xu ... zvv, the unit normal
     /// nx,ny,nz, Gauss curvature K (1/length^2) and mean curvature H (1/length), with 17
     /// digits; `-` for stdout
+    ///
+    /// At an extraordinary point itself derivatives do not exist: they are `nan`. K and H are
+    /// those of the quadratic there for qas3 and qas4, and `nan` for the other schemes, whose
+    /// curvature has no limit.
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: Target,
 }
@@ -44,9 +48,10 @@ const BATCH: usize = 1 << 14;
 
 /// Runs `evenlight eval`.
 pub fn run(args: &EvalArgs, quiet: bool) -> Result<(), Failure> {
-    if (&args.surface.cage, &args.points) == (&Source::Stdin, &Source::Stdin) {
-        return Err(Failure::Usage("cage and points cannot both come from stdin".to_owned()));
-    }
+    let SurfaceArgs { cage, q, .. } = &args.surface;
+    let q = q.file.iter().map(|file| ("--q", file));
+    let sources = [("cage", cage), ("points", &args.points)];
+    input::refuse_shared_stdin(&sources.into_iter().chain(q).collect::<Vec<_>>())?;
     let surface = input::read_surface(&args.surface)?;
     let text = args.points.read_text()?;
     evaluate(&surface, &args.points, &text, &args.output, quiet)
@@ -99,9 +104,14 @@ fn write_row(
     let curvature = [answer.gauss, answer.mean];
     let vectors = answer.jet.rows().into_iter().chain([answer.normal]);
     for x in vectors.flatten().chain(curvature) {
-        write!(out, ",{x:.16e}")?;
+        write_number(out, x)?;
     }
     out.write_all(b"\n")
+}
+
+/// A column with 17 digits; `nan` for what does not exist.
+fn write_number(out: &mut dyn Write, x: f64) -> io::Result<()> {
+    if x.is_nan() { out.write_all(b",nan") } else { write!(out, ",{x:.16e}") }
 }
 
 /// The queries of a file.

@@ -63,10 +63,22 @@ fn read_stdin() -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// Refuses to read two things from stdin, as wrong usage.
+pub fn refuse_shared_stdin(sources: &[(&str, &Source)]) -> Result<(), Failure> {
+    let from_stdin = sources.iter().filter(|(_, source)| **source == Source::Stdin);
+    let names: Vec<&str> = from_stdin.map(|(name, _)| *name).collect();
+    match names[..] {
+        [] | [_] => Ok(()),
+        _ => Err(Failure::Usage(format!("{} cannot both come from stdin", names.join(" and ")))),
+    }
+}
+
 /// The surface that `args` ask for; what is ignored or left out is said on stderr.
 pub fn read_surface(args: &SurfaceArgs) -> Result<Surface, Failure> {
-    let surface = build(read_cage(&args.cage)?, args.options(), &args.cage)?;
+    let edits = args.q.read(&args.cage, &[args.scheme])?;
+    let mut surface = build(read_cage(&args.cage)?, args.options(), &args.cage)?;
     report_omitted(&surface, &args.cage)?;
+    edits.apply(&mut surface)?;
     Ok(surface)
 }
 

@@ -6,7 +6,8 @@
 //! check      is the cage fit, and what is in it     mesh      triangles: .obj .ply .stl
 //! patches    BB patches: .bv .json                  eval      points, derivatives, curvature
 //! render     pictures: .png                         analyze   fairness in numbers
-//! spectrum   eigenvalues of the rules               demo      all of it on a cage of ours
+//! q          quadratics, to be edited for --q       spectrum  eigenvalues of the rules
+//! demo       all of it on a cage of ours
 //! ```
 
 mod analyze;
@@ -20,6 +21,7 @@ mod options;
 mod output;
 mod patches;
 mod progress;
+mod q;
 mod render;
 mod spectrum;
 mod table;
@@ -32,10 +34,10 @@ use clap::{CommandFactory, Parser, Subcommand};
 use error::Failure;
 use options::Global;
 
-/// Fair subdivision surfaces from quad cages: Evolving-Guide surfaces beside Catmull-Clark, as
-/// exact Bernstein-Bezier patches.
+/// Fair subdivision surfaces from quad cages: Quadratic-Attraction and Evolving-Guide surfaces
+/// beside Catmull-Clark, as exact Bernstein-Bezier patches.
 ///
-/// Faces and vertices are numbered from 0. A face with four corners a b c d has parameters
+/// Faces and vertices are numbered from 0, but in messages about a line of a file as there. A face with four corners a b c d has parameters
 /// (u,v) in the unit square, a at (0,0), b at (1,0), c at (1,1), d at (0,1). Any other face is
 /// one such square per corner, from the corner at (0,0) to the face's centre at (1,1). Lengths
 /// are in the units of the cage, angles in degrees.
@@ -67,6 +69,8 @@ enum Command {
     Render(render::RenderArgs),
     /// Curvature and continuity around every extraordinary vertex
     Analyze(analyze::AnalyzeArgs),
+    /// The quadratics to which surfaces tend at extraordinary points, to be edited for --q
+    Q(q::QArgs),
     /// Eigenvalues of the subdivision rules per valence
     Spectrum(spectrum::SpectrumArgs),
     /// A completion script for a shell, to stdout
@@ -102,6 +106,7 @@ fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Eval(args) => eval::run(args, quiet),
         Command::Render(args) => render::run(args, quiet),
         Command::Analyze(args) => analyze::run(args, quiet),
+        Command::Q(args) => q::run(args),
         Command::Spectrum(args) => spectrum::run(args, quiet),
         Command::Completions { shell } => completions(*shell),
     }

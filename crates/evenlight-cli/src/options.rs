@@ -2,11 +2,12 @@
 
 use std::ops::RangeInclusive;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
 
 use crate::input::Source;
+use crate::q::QArg;
 
 /// Options that stand before or after any subcommand.
 #[derive(Args, Clone, Copy, Debug)]
@@ -27,18 +28,21 @@ pub struct SurfaceArgs {
     /// The cage: an OBJ file with quads and n-gons, counter-clockwise; `-` for stdin
     pub cage: Source,
 
-    /// Subdivision scheme: Catmull-Clark (`cc`), Evolving-Guide (`eg`)
-    #[arg(long, default_value = "eg", value_parser = scheme_parser())]
+    /// Subdivision scheme; what it is like around an extraordinary point of valence n
+    #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
     pub scheme: SchemeKind,
 
     #[command(flatten)]
     pub rules: RulesArg,
+
+    #[command(flatten)]
+    pub q: QArg,
 }
 
 /// Which tables of weights the scheme takes.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct RulesArg {
-    /// Tables of weights of the scheme (`cc` has none)
+    /// Tables of weights of the scheme (`cc` is a formula and has none)
     #[arg(long, value_enum, default_value_t = Rules::Generated)]
     pub rules: Rules,
 }
@@ -52,20 +56,73 @@ impl SurfaceArgs {
 
 /// Reads the short name of a scheme.
 pub fn scheme_parser() -> impl TypedValueParser<Value = SchemeKind> {
-    let parser = PossibleValuesParser::new(SchemeKind::ALL.map(SchemeKind::name));
-    parser.map(|name| {
+    let values = SchemeKind::ALL.map(|s| PossibleValue::new(s.name()).help(about_scheme(s)));
+    PossibleValuesParser::new(values).map(|name| {
         let scheme = SchemeKind::ALL.into_iter().find(|scheme| scheme.name() == name);
         scheme.expect("the name is one of the possible values")
     })
 }
 
+/// The degree, the patches around a point of valence n, the continuity there.
+fn about_scheme(scheme: SchemeKind) -> &'static str {
+    match scheme {
+        SchemeKind::CatmullClark => {
+            "Catmull-Clark: bi-3, 3n patches per ring; C1, curvature unbounded"
+        }
+        SchemeKind::EvolvingGuide => {
+            "Evolving-Guide: bi-4, 3n patches per ring; C1, curvature grows slowly"
+        }
+        SchemeKind::Pas3 => {
+            "Point-augmented: bi-3, 12n patches per ring; C1, curvature grows slowly"
+        }
+        SchemeKind::Pas4 => {
+            "Point-augmented: bi-4, 3n patches per ring; C1, curvature grows slowly"
+        }
+        SchemeKind::Qas3 => {
+            "Quadratic-Attraction: bi-3, 12n patches per ring; C1, curvature bounded"
+        }
+        SchemeKind::Qas4 => {
+            "Quadratic-Attraction: bi-4, 3n patches per ring; C1, curvature bounded"
+        }
+    }
+}
+
 /// The tables by their names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rules {
-    /// As the paper prints them: five digits, valences 3 and 5 to 10
+    /// As the papers print them.
     Published,
-    /// At full precision, valences 3 and 5 to 16
+    /// At full precision.
     Generated,
+}
+
+impl ValueEnum for Rules {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self::Published, Self::Generated]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, about) = match self {
+            Self::Published => ("published", "Five digits, as the papers print them"),
+            Self::Generated => ("generated", "Full precision"),
+        };
+        let help = format!("{about}; valences {}", valences((*self).into()));
+        Some(PossibleValue::new(name).help(help))
+    }
+}
+
+/// The valences with rules, in words, schemes with the same valences together.
+fn valences(rules: RuleSet) -> String {
+    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
+    for scheme in SchemeKind::ALL {
+        let valences = scheme.valences(rules);
+        match groups.iter_mut().find(|(other, _)| *other == valences) {
+            Some((_, names)) => names.push(scheme.name()),
+            None => groups.push((valences, vec![scheme.name()])),
+        }
+    }
+    let texts = groups.iter().map(|(valences, names)| format!("{valences} ({})", names.join(", ")));
+    texts.collect::<Vec<_>>().join(", ")
 }
 
 impl From<Rules> for RuleSet {

@@ -18,12 +18,13 @@ pub struct RenderArgs {
     #[command(flatten)]
     surface: SurfaceArgs,
 
-    /// Schemes to show side by side, with one camera and one range of colours
+    /// Schemes to show side by side, as `cc,eg,qas4`, with one camera and one range of colours
     #[arg(
         long,
         value_delimiter = ',',
         value_name = "SCHEMES",
         value_parser = scheme_parser(),
+        hide_possible_values = true,
         conflicts_with = "scheme"
     )]
     compare: Vec<SchemeKind>,
@@ -173,13 +174,18 @@ pub fn view_at(surface: &Surface, vertex: VertexId) -> Option<View> {
 
 /// The surfaces to show, at least one.
 fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
-    let SurfaceArgs { cage: source, .. } = &args.surface;
-    let cage = input::read_cage(source)?;
+    let SurfaceArgs { cage: source, scheme, q, .. } = &args.surface;
     let options = args.surface.options();
-    let single = [options.scheme];
+    let single = [*scheme];
     let schemes = if args.compare.is_empty() { &single[..] } else { &args.compare };
-    let build =
-        |&scheme| input::build(Arc::clone(&cage), SurfaceOptions { scheme, ..options }, source);
+    let edits = q.read(source, schemes)?;
+    let cage = input::read_cage(source)?;
+    let build = |&scheme| -> Result<Surface, Failure> {
+        let options = SurfaceOptions { scheme, ..options };
+        let mut surface = input::build(Arc::clone(&cage), options, source)?;
+        edits.apply(&mut surface)?;
+        Ok(surface)
+    };
     let surfaces = schemes.iter().map(build).collect::<Result<Vec<_>, _>>()?;
     input::report_omitted(&surfaces[0], source)?;
     Ok(surfaces)

@@ -16,8 +16,8 @@ use crate::table::{Table, short};
 /// Arguments of `evenlight spectrum`.
 #[derive(Args, Debug)]
 pub struct SpectrumArgs {
-    /// Subdivision scheme: Catmull-Clark (`cc`), Evolving-Guide (`eg`)
-    #[arg(long, default_value = "eg", value_parser = scheme_parser())]
+    /// Subdivision scheme; what it is like around an extraordinary point of valence n
+    #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
     scheme: SchemeKind,
 
     #[command(flatten)]
@@ -71,8 +71,14 @@ pub fn spectra(
 
 fn no_rules(scheme: SchemeKind, rules: RuleSet, valence: usize) -> String {
     let kind = rules_name(SurfaceOptions { scheme, rules }).map(|r| r.to_owned() + " ");
+    let others = RuleSet::Generated;
+    let advice = if rules != others && scheme.has_rules(others, valence) {
+        format!("; its generated rules are for {}", scheme.valences(others))
+    } else {
+        String::new()
+    };
     format!(
-        "the scheme {} has {}rules for the valences {}, not for {valence}",
+        "the scheme {} has {}rules for the valences {}, not for {valence}{advice}",
         scheme.name(),
         kind.unwrap_or_default(),
         scheme.valences(rules)
@@ -81,16 +87,26 @@ fn no_rules(scheme: SchemeKind, rules: RuleSet, valence: usize) -> String {
 
 /// The spectra for people.
 pub fn table(spectra: &[Spectrum]) -> Table {
-    let header =
-        ["valence", "lambda", "mu/lambda^2", "min Jacobian", "largest eigenvalues by modulus"];
-    let mut table = Table::new(&header);
+    let mut table = Table::new(&[
+        "valence",
+        "lambda",
+        "mu/lambda^2",
+        "M_d/lambda^2",
+        "zeros %",
+        "min Jacobian",
+        "injective",
+        "largest eigenvalues by modulus",
+    ]);
     for s in spectra {
         let largest: Vec<String> = s.moduli.iter().take(8).map(|m| format!("{m:.4}")).collect();
         table.push([
             s.valence.to_string(),
             format!("{:.6}", s.lambda),
             format!("{:.6}", s.mu_over_lambda2),
+            s.md_max_over_lambda2.map_or("-".to_owned(), |md| format!("{md:.6}")),
+            format!("{:.1}", s.zeros_percent),
             short(s.jacobian_min),
+            if s.injectivity_proved { "proved" } else { "no" }.to_owned(),
             largest.join(" "),
         ]);
     }
@@ -114,8 +130,15 @@ struct Record<'a> {
     eigenvalues: &'a [f64],
     lambda: f64,
     mu_over_lambda2: f64,
+    /// The largest eigenvalue of the control net's block over lambda^2; `null` for schemes
+    /// without a quadratic.
+    md_max_over_lambda2: Option<f64>,
+    /// Zeros of the whole matrix.
+    zeros_percent: f64,
     /// Relative to the largest Jacobian.
     jacobian_min: f64,
+    /// Whether the characteristic map is proved to be injective.
+    injectivity_proved: bool,
 }
 
 impl<'a> Document<'a> {
@@ -126,7 +149,10 @@ impl<'a> Document<'a> {
             eigenvalues: &s.moduli,
             lambda: s.lambda,
             mu_over_lambda2: s.mu_over_lambda2,
+            md_max_over_lambda2: s.md_max_over_lambda2,
+            zeros_percent: s.zeros_percent,
             jacobian_min: s.jacobian_min,
+            injectivity_proved: s.injectivity_proved,
         };
         Self {
             scheme: options.scheme.name(),

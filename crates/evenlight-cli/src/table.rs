@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use evenlight::Vector;
+use evenlight::surface::ExtraordinaryPoint;
+
 /// Rows of cells under a header.
 pub struct Table {
     header: Vec<String>,
@@ -74,6 +77,20 @@ pub fn short(x: f64) -> String {
             format!("{x:.0$}", (4 - digits_before).max(0) as usize)
         }
         _ => format!("{x:.2e}"),
+    }
+}
+
+/// Three numbers as [`short`] writes them.
+pub fn triple(v: Vector) -> String {
+    v.map(short).join(" ")
+}
+
+/// `vertex 7`, or `face 7` for the centre of a face that is no quad.
+pub fn point_name(point: &ExtraordinaryPoint) -> String {
+    match (point.vertex, point.face) {
+        (Some(v), _) => format!("vertex {}", v.0),
+        (_, Some(f)) => format!("face {}", f.0),
+        _ => String::new(),
     }
 }
 

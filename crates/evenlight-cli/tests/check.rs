@@ -92,6 +92,17 @@ fn faults_name_the_line_of_the_file() {
 }
 
 #[test]
+fn names_and_tags_cannot_steer_the_terminal() {
+    let output = run_on(&format!("\u{1b}[2J\u{9b}7m 1\n{CUBE}"), &["check", "-"]);
+    assert_eq!(code(&output), 0);
+    let tag = stderr(&output);
+    assert!(tag.contains("[2J") && tag.contains("is not supported"), "{tag}");
+    let name = stderr(&run(&["check", "a\u{1b}[2Jb"]));
+    assert!(name.starts_with("error: a\\u{1b}[2Jb: "), "{name}");
+    assert!(tag.chars().chain(name.chars()).all(|c| c == '\n' || !c.is_control()));
+}
+
+#[test]
 fn a_file_that_is_not_there_is_named() {
     let output = run(&["check", "no/such/cage.obj", "--json"]);
     assert_eq!((code(&output), output.stdout.len()), (1, 0));
@@ -112,10 +123,14 @@ fn valences_without_rules_are_a_warning() {
     }
     let output = run_on(&text, &["check", "-"]);
     assert_eq!(code(&output), 0);
-    assert!(stderr(&output).contains("2 extraordinary points have valences up to 20"));
+    assert!(stderr(&output).contains("only: vertex 0 has valence 20, vertex 1 has valence 20"));
     let output = run_on(&text, &["mesh", "-", "-o", "-", "--format", "obj"]);
     assert_eq!((code(&output), output.stdout.len()), (1, 0));
-    assert!(stderr(&output).contains("vertex 1 has valence 20"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("vertex 0 (number 1 in a file) has valence 20"),
+        "{}",
+        stderr(&output)
+    );
     assert_eq!(
         code(&run_on(&text, &["mesh", "-", "-o", "-", "--format", "obj", "--scheme", "cc"])),
         0

@@ -9,11 +9,14 @@ use std::fs;
 use std::path::Path;
 
 use common::{arg, evenlight, run, stdout};
+use serde_json::json;
 
-const FILES: [&str; 16] = [
+const FILES: [&str; 19] = [
     "analyze.json",
     "cage.obj",
     "check.json",
+    "edit.json",
+    "edited.png",
     "gauss.png",
     "highlight.png",
     "mean.png",
@@ -25,6 +28,7 @@ const FILES: [&str; 16] = [
     "patches.png",
     "points-evaluated.csv",
     "points.csv",
+    "q.json",
     "report.md",
     "shaded.png",
 ];
@@ -63,7 +67,7 @@ fn every_file_is_there_reported_and_reproducible() {
 
     // Each command of the report, in an otherwise empty folder, gives the same bytes.
     let again = tempfile::tempdir().unwrap();
-    for file in ["cage.obj", "points.csv", "report.md"] {
+    for file in ["cage.obj", "points.csv", "edit.json", "report.md"] {
         fs::write(again.path().join(file), &first[file]).unwrap();
     }
     for command in commands(&report) {
@@ -72,6 +76,25 @@ fn every_file_is_there_reported_and_reproducible() {
     let second = contents(again.path());
     assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
     assert!(first.iter().all(|(file, bytes)| second[file] == *bytes));
+}
+
+#[test]
+fn the_cage_has_interior_vertices_of_valence_3_5_6_and_8_with_a_picture_each() {
+    let folder = tempfile::tempdir().unwrap();
+    demo(folder.path());
+    let text = fs::read(folder.path().join("check.json")).unwrap();
+    let check: serde_json::Value = serde_json::from_slice(&text).unwrap();
+    assert_eq!((&check["boundary_edges"], &check["components"]), (&0.into(), &1.into()));
+    assert_eq!((&check["ngons"], &check["warnings"]), (&json!({}), &json!([])));
+    let valences: Vec<&String> = check["valences"].as_object().unwrap().keys().collect();
+    assert_eq!(valences, ["3", "4", "5", "6", "8"]);
+    // Isolated in the cage itself: rings as large as faces, and pictures that show them.
+    let points = check["extraordinary"].as_array().unwrap();
+    assert!(points.iter().all(|point| point["level"] == 0 && point["has_surface"] == true));
+    for valence in [3, 5, 6, 8] {
+        assert!(folder.path().join(format!("highlight-valence-{valence}.png")).is_file());
+    }
+    assert!(folder.path().join("mean-valence-8.png").is_file());
 }
 
 #[test]

@@ -4,7 +4,9 @@
 
 mod common;
 
-use common::{CONE, CUBE, PILLOW, TETRAHEDRON, arg, cage, code, run_on, stderr, stdout};
+use common::{
+    CONE, CUBE, PILLOW, SCHEMES, TETRAHEDRON, arg, cage, code, file, run_on, stderr, stdout,
+};
 
 const ANSWER: &str = "x,y,z,xu,yu,zu,xv,yv,zv,xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv,nx,ny,nz,K,H";
 
@@ -14,10 +16,8 @@ fn eval(points: &str) -> String {
 }
 
 fn error(points: &str, cage: &str) -> String {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("cage.obj");
-    std::fs::write(&file, cage).unwrap();
-    let output = run_on(points, &["eval", arg(&file), "--points", "-"]);
+    let (_folder, path) = file("cage.obj", cage);
+    let output = run_on(points, &["eval", arg(&path), "--points", "-"]);
     assert_eq!((code(&output), output.stdout.len()), (1, 0));
     stderr(&output)
 }
@@ -74,21 +74,40 @@ fn the_columns_are_what_their_names_say() {
     assert!((0..3).map(|k| normal[k] * p[4][3 + k]).sum::<f64>().abs() < 1e-14);
 }
 
-#[test]
-fn corners_of_a_cube_lie_on_its_diagonals() {
-    let text = stdout(&run_on("0,0,0\n", &["eval", arg(&file(CUBE).1), "--points", "-"]));
-    let row = numbers(text.lines().nth(1).unwrap(), 3);
-    assert!((row[0] - row[1]).abs() < 1e-14 && (row[0] - row[2]).abs() < 1e-14 && row[0] < 0.0);
-    // The limit normal is exact there; derivatives and curvature do not exist.
-    assert!((row[18] + 1.0 / 3.0_f64.sqrt()).abs() < 1e-12);
-    assert!(row[3].is_nan() && row[21].is_nan() && row[22].is_nan());
+/// The answer at the first corner of a cube.
+fn corner_of_cube(scheme: &str) -> String {
+    let (_folder, path) = file("cage.obj", CUBE);
+    let args = ["eval", arg(&path), "--points", "-", "--scheme", scheme];
+    stdout(&run_on("0,0,0\n", &args)).lines().nth(1).unwrap().to_owned()
 }
 
-fn file(cage: &str) -> (tempfile::TempDir, std::path::PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("cage.obj");
-    std::fs::write(&path, cage).unwrap();
-    (folder, path)
+#[test]
+fn corners_of_a_cube_lie_on_its_diagonals() {
+    for scheme in SCHEMES {
+        let row = numbers(&corner_of_cube(scheme), 3);
+        assert!((row[0] - row[1]).abs() < 1e-14 && (row[0] - row[2]).abs() < 1e-14);
+        // The limit normal is exact there; derivatives do not exist.
+        assert!(row[0] < 0.0 && (row[18] + 1.0 / 3.0_f64.sqrt()).abs() < 1e-12);
+        assert!(row[3..18].iter().all(|x| x.is_nan()));
+    }
+}
+
+#[test]
+fn curvature_at_an_extraordinary_vertex_is_that_of_its_quadratic_or_nan() {
+    for scheme in SCHEMES {
+        let text = corner_of_cube(scheme);
+        let row = numbers(&text, 3);
+        let [gauss, mean] = [row[21], row[22]];
+        if scheme.starts_with("qas") {
+            // Convex, and by symmetry the same in all directions.
+            assert!(mean < 0.0 && (gauss / (mean * mean) - 1.0).abs() < 1e-12, "{scheme}");
+        } else {
+            assert!(gauss.is_nan() && mean.is_nan(), "{scheme}");
+        }
+        let words: Vec<&str> = text.split(',').filter(|x| x.contains(['n', 'N'])).collect();
+        assert!(words.iter().all(|word| *word == "nan"), "{words:?}");
+        assert_eq!(words.len(), if scheme.starts_with("qas") { 15 } else { 17 });
+    }
 }
 
 #[test]
@@ -100,7 +119,7 @@ fn headers_comments_and_blank_lines_are_skipped() {
 
 #[test]
 fn faces_that_are_no_quads_are_asked_by_corner() {
-    let (_folder, path) = file(TETRAHEDRON);
+    let (_folder, path) = file("cage.obj", TETRAHEDRON);
     // The centre of a face is the corner (1,1) of all its quads.
     let text =
         stdout(&run_on("0,1,1,0\n0,1,1,1\n0,1,1,2\n", &["eval", arg(&path), "--points", "-"]));

@@ -7,7 +7,7 @@ mod common;
 use std::collections::BTreeMap;
 use std::fs;
 
-use common::{CUBE, PILLOW, arg, cage, run, run_on, stdout};
+use common::{CUBE, PILLOW, SCHEMES, arg, cage, run, run_on, stdout};
 
 fn obj(args: &[&str]) -> String {
     let pillow = cage(PILLOW);
@@ -23,7 +23,7 @@ fn triangles(obj: &str) -> Vec<[u32; 3]> {
 
 #[test]
 fn a_closed_cage_gives_a_closed_mesh() {
-    for scheme in ["cc", "eg"] {
+    for scheme in SCHEMES {
         let triangles = triangles(&obj(&["--rate", "3", "--scheme", scheme]));
         assert_eq!(triangles.len(), 150 * 2 * 3 * 3);
         let mut edges: BTreeMap<(u32, u32), usize> = BTreeMap::new();

@@ -6,7 +6,7 @@ mod common;
 
 use std::collections::BTreeMap;
 
-use common::{CUBE, PILLOW, TETRAHEDRON, arg, cage, json, run, run_on, stdout};
+use common::{CUBE, PILLOW, SCHEMES, TETRAHEDRON, arg, cage, json, numbers, run, run_on, stdout};
 use evenlight::io::bv;
 use serde_json::{Value, json};
 
@@ -23,7 +23,7 @@ fn pillow(args: &[&str]) -> Value {
 #[test]
 fn json_has_the_promised_keys() {
     let document = pillow(&["--rings", "2"]);
-    assert_eq!((&document["scheme"], &document["rules"]), (&json!("eg"), &json!("generated")));
+    assert_eq!((&document["scheme"], &document["rules"]), (&json!("qas4"), &json!("generated")));
     for patch in patches(&document) {
         let [du, dv] = [0, 1].map(|k| patch["degree"][k].as_u64().unwrap());
         let coefficients = patch["coefficients"].as_array().unwrap();
@@ -38,8 +38,12 @@ fn json_has_the_promised_keys() {
 }
 
 #[test]
-fn every_ring_has_three_patches_per_sector_of_the_degree_of_the_scheme() {
-    for (scheme, degree) in [("eg", 4), ("cc", 3)] {
+fn rings_have_the_patches_and_the_degree_that_help_promises() {
+    let help = stdout(&run(&["patches", "--help"]));
+    for scheme in SCHEMES {
+        let about = help.lines().find(|l| l.contains(&format!("- {scheme}:"))).unwrap();
+        let degree = if about.contains("bi-3") { 3 } else { 4 };
+        let per_sector = if about.contains(" 12n patches") { 12 } else { 3 };
         let document = pillow(&["--rings", "3", "--scheme", scheme]);
         let mut rings: BTreeMap<(u64, u64), usize> = BTreeMap::new();
         for patch in patches(&document).iter().filter(|p| !p["ring"].is_null()) {
@@ -51,7 +55,7 @@ fn every_ring_has_three_patches_per_sector_of_the_degree_of_the_scheme() {
         assert_eq!(rings.len(), 12 * 3);
         for ((vertex, ring), count) in rings {
             let valence = if [0, 61].contains(&vertex) { 5 } else { 3 };
-            assert_eq!(count, 3 * valence, "ring {ring} of vertex {vertex}");
+            assert_eq!(count, per_sector * valence, "{scheme}: ring {ring} of vertex {vertex}");
         }
     }
 }
@@ -107,12 +111,14 @@ fn both_formats_have_the_same_coefficients_to_the_last_digit() {
 #[test]
 fn published_rules_differ_a_little_from_the_generated_ones() {
     let coordinates = |document: &Value| -> Vec<f64> {
-        let all = patches(document).iter().flat_map(|p| p["coefficients"].as_array().unwrap());
-        all.flat_map(|b| b.as_array().unwrap()).map(|x| x.as_f64().unwrap()).collect()
+        patches(document).iter().flat_map(|p| numbers(&p["coefficients"])).collect()
     };
-    let generated = coordinates(&pillow(&["--rings", "1"]));
-    let published = coordinates(&pillow(&["--rings", "1", "--rules", "published"]));
-    let differences = generated.iter().zip(&published).map(|(a, b)| (a - b).abs());
-    let largest = differences.fold(0.0, f64::max);
-    assert!(largest > 0.0 && largest < 1e-3, "{largest}");
+    for scheme in &SCHEMES[1..] {
+        let with =
+            |rules| coordinates(&pillow(&["--rings", "1", "--scheme", scheme, "--rules", rules]));
+        let (generated, published) = (with("generated"), with("published"));
+        let differences = generated.iter().zip(&published).map(|(a, b)| (a - b).abs());
+        let largest = differences.fold(0.0, f64::max);
+        assert!(largest > 0.0 && largest < 1e-3, "{scheme}: {largest}");
+    }
 }

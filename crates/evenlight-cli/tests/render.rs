@@ -35,8 +35,9 @@ fn pictures_have_the_size_that_is_asked_for() {
 fn every_style_and_scheme_gives_another_picture() {
     let mut pictures = Vec::new();
     for style in ["shaded", "highlight", "gauss", "mean", "patches"] {
-        for scheme in ["cc", "eg"] {
-            pictures.push(picture(&["--size", "120x90", "--style", style, "--scheme", scheme]));
+        for scheme in ["cc", "eg", "qas3", "qas4"] {
+            let args = ["--size", "120x90", "--at", "0", "--zoom", "2", "--scheme", scheme];
+            pictures.push(picture(&[&args[..], &["--style", style]].concat()));
         }
     }
     for (k, a) in pictures.iter().enumerate() {

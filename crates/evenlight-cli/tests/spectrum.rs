@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{code, json, run, stderr, stdout};
+use common::{SCHEMES, code, json, run, stderr, stdout};
 use serde_json::{Value, json};
 
 fn spectra(args: &[&str]) -> Vec<Value> {
@@ -15,7 +15,7 @@ fn spectra(args: &[&str]) -> Vec<Value> {
 #[test]
 fn json_has_the_promised_keys() {
     let document = json(&run(&["spectrum", "--json", "--rules", "published"]));
-    assert_eq!((&document["scheme"], &document["rules"]), (&json!("eg"), &json!("published")));
+    assert_eq!((&document["scheme"], &document["rules"]), (&json!("qas4"), &json!("published")));
     for spectrum in document["spectra"].as_array().unwrap() {
         let number = |key: &str| spectrum[key].as_f64().unwrap();
         let moduli = spectrum["eigenvalues"].as_array().unwrap();
@@ -24,6 +24,29 @@ fn json_has_the_promised_keys() {
         assert!((moduli[1] - number("lambda")).abs() < 1e-6);
         assert!((moduli[3] / number("lambda").powi(2) - number("mu_over_lambda2")).abs() < 1e-6);
         assert!((0.0..1.0).contains(&number("jacobian_min")));
+        assert!((0.0..100.0).contains(&number("zeros_percent")));
+        assert_eq!(spectrum["injectivity_proved"], true);
+        assert!((0.0..1.0).contains(&number("md_max_over_lambda2")));
+    }
+}
+
+#[test]
+fn every_scheme_has_spectra_for_all_its_valences() {
+    for scheme in SCHEMES {
+        let spectra = spectra(&["--scheme", scheme, "--valence", "3..16"]);
+        assert_eq!(spectra.len(), 13);
+        for spectrum in spectra {
+            let name = format!("{scheme} n = {}", spectrum["valence"]);
+            // Curvature is bounded with a quadratic: mu is its lambda^2, all else is below.
+            let has_quadratic = scheme.starts_with("qas");
+            assert_eq!(spectrum["md_max_over_lambda2"].is_null(), !has_quadratic, "{name}");
+            if has_quadratic {
+                assert!(spectrum["md_max_over_lambda2"].as_f64().unwrap() < 1.0, "{name}");
+                let mu = spectrum["mu_over_lambda2"].as_f64().unwrap();
+                assert!((mu - 1.0).abs() < 1e-12, "{name}");
+            }
+            assert_eq!(spectrum["injectivity_proved"], true, "{name}");
+        }
     }
 }
 
@@ -65,13 +88,22 @@ fn valence_4_is_regular() {
 fn valences_without_rules_are_wrong_usage() {
     let output = run(&["spectrum", "--rules", "published", "--valence", "3..11"]);
     assert_eq!((code(&output), output.stdout.len()), (2, 0));
-    assert!(stderr(&output).contains("eg has published rules for the valences 3 and 5 to 10"));
+    let text = stderr(&output);
+    assert!(text.contains("qas4 has published rules for the valences 3 and 5 to 10, not for 11"));
+    assert!(text.contains("; its generated rules are for 3 and 5 to 16"));
+    let output = run(&["spectrum", "--valence", "17"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("rules for the valences 3 and 5 to 16, not for 17\n"));
 }
 
 #[test]
 fn the_table_has_a_line_per_valence() {
     let text = stdout(&run(&["spectrum", "--valence", "3..6"]));
     assert_eq!(text.lines().count(), 1 + 3);
-    assert!(text.lines().next().unwrap().contains("mu/lambda^2"));
+    for column in ["lambda", "mu/lambda^2", "M_d/lambda^2", "zeros %", "min Jacobian", "injective"]
+    {
+        assert!(text.lines().next().unwrap().contains(column), "{column}");
+    }
+    assert!(text.lines().skip(1).all(|line| line.contains(" proved ")));
     assert!(text.lines().nth(1).unwrap().trim_start().starts_with("3  0.410097"));
 }

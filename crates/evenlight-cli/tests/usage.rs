@@ -4,10 +4,10 @@
 
 mod common;
 
-use common::{CUBE, PILLOW, arg, cage, code, run, run_on, stderr, stdout};
+use common::{CUBE, PILLOW, SCHEMES, arg, cage, code, run, run_on, stderr, stdout};
 
-const COMMANDS: [&str; 8] =
-    ["demo", "check", "patches", "mesh", "eval", "render", "analyze", "spectrum"];
+const COMMANDS: [&str; 9] =
+    ["demo", "check", "patches", "mesh", "eval", "render", "analyze", "q", "spectrum"];
 
 #[test]
 fn help_lists_every_command_and_says_what_exit_codes_mean() {
@@ -23,7 +23,11 @@ fn every_command_has_help_with_its_defaults_and_units() {
         assert!(stdout(&run(&[command, "--help"])).contains("Usage: evenlight"), "{command}");
     }
     let help = |command| stdout(&run(&[command, "--help"])).replace('\n', " ");
-    assert!(help("patches").contains("[default: 6]") && help("patches").contains("[default: eg]"));
+    assert!(help("patches").contains("[default: 6]"));
+    for command in ["patches", "mesh", "eval", "render", "q", "spectrum"] {
+        assert!(help(command).contains("[default: qas4]"), "{command}");
+    }
+    assert!(help("analyze").contains("[default: cc,qas4]"));
     assert!(help("mesh").contains("Segments per edge") && help("mesh").contains("[default: 8]"));
     assert!(help("eval").contains("K (1/length^2)") && help("eval").contains("[default: -]"));
     let render = help("render");
@@ -34,6 +38,24 @@ fn every_command_has_help_with_its_defaults_and_units() {
 }
 
 #[test]
+fn help_says_what_every_scheme_is_and_which_valences_it_has() {
+    for command in ["patches", "mesh", "eval", "render", "analyze", "q", "spectrum"] {
+        let help = stdout(&run(&[command, "--help"]));
+        for scheme in SCHEMES {
+            let mut lines = help.lines().filter(|l| l.contains(&format!("- {scheme}:")));
+            let about = lines.next().unwrap();
+            assert!(["bi-", "per ring", "C1"].iter().all(|word| about.contains(word)), "{about}");
+            assert_eq!(lines.next(), None, "{command}");
+        }
+        let words: Vec<&str> = help.split_whitespace().collect();
+        let help = words.join(" ");
+        for valences in ["2 to 1024 (cc)", "3 and 5 to 10 (eg, pas3", "3 and 5 to 16 (eg, pas3"] {
+            assert!(help.contains(valences), "{command}: {valences}");
+        }
+    }
+}
+
+#[test]
 fn wrong_usage_is_exit_code_2_with_a_message_on_stderr() {
     let pillow = cage(PILLOW);
     let pillow = arg(&pillow);
@@ -41,7 +63,7 @@ fn wrong_usage_is_exit_code_2_with_a_message_on_stderr() {
         (&["frobnicate"][..], "unrecognized subcommand"),
         (&["check"], "required"),
         (&["check", pillow, "--frob"], "unexpected argument"),
-        (&["mesh", pillow, "-o", "a.ply", "--scheme", "loop"], "possible values: cc, eg"),
+        (&["mesh", pillow, "-o", "a.ply", "--scheme", "loop"], "cc, eg, pas3, pas4, qas3, qas4"),
         (&["mesh", pillow, "-o", "a.ply", "--rate", "0"], "not in 1..=1024"),
         (&["mesh", pillow, "-o", "a.step"], "it can be .obj, .ply, .stl"),
         (&["mesh", pillow, "-o", "-"], "choose --format obj or ply or stl"),
@@ -58,7 +80,9 @@ fn wrong_usage_is_exit_code_2_with_a_message_on_stderr() {
             "cannot be used",
         ),
         (&["render", pillow, "-o", "a.png", "--at", "0", "--view", "1,2"], "cannot be used"),
-        (&["eval", "-", "--points", "-"], "cannot both come from stdin"),
+        (&["eval", "-", "--points", "-"], "cage and points cannot both come from stdin"),
+        (&["eval", pillow, "--points", "-", "--q", "-"], "points and --q cannot both come"),
+        (&["mesh", "-", "-o", "a.ply", "--q", "-"], "cage and --q cannot both come from stdin"),
         (&["spectrum", "--valence", "10..3"], "inclusive range"),
         (&["spectrum", "--valence", "many"], "inclusive range"),
         (&["check", pillow, "--threads", "0"], "not in 1..=1024"),

@@ -83,6 +83,10 @@ pub struct Rings {
 /// 2^-64 is made of the last of them anew, in time proportional to its depth.
 const CACHED_RINGS: usize = 64;
 
+/// Tangents shorter than this part of the net, or closer to parallel, are none: rounding leaves
+/// 1e-16 where they should vanish, and a sound cage stays far above.
+const FLATTEST: f64 = 1e-12;
+
 /// Where X, Y and Z point, and how Z shrinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
@@ -110,8 +114,8 @@ impl Rings {
     /// The surface over a d-net with c_0 by [`DNet::center`]; `None` if the scheme has no rules
     /// for its valence or does not work on d-nets.
     pub fn from_dnet(dnet: &DNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
-        let center = dnet.center(kind.spline()?);
         let rules = Arc::new(ValenceRules::new(kind, set, dnet.valence())?);
+        let center = dnet.center(kind.spline()?);
         let net: Vec<Vector> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
         Some(Self::start(&net, center, None, rules))
     }
@@ -365,10 +369,8 @@ impl Frame {
         let [a, b] = subdominant.tangents(net);
         let normal = cross(b, a);
         let longer = dot(a, a).max(dot(b, b));
-        // Rounding leaves 1e-16 of the net's size in tangents that should vanish, and in the
-        // angle between tangents that should be parallel; a sound cage stays far above both.
-        let size = net.iter().map(|&p| dot(p, p)).fold(0.0, f64::max);
-        let has_plane = longer > 1e-24 * size && norm(normal) > 1e-12 * longer;
+        let size_sq = net.iter().map(|&p| dot(p, p)).fold(0.0, f64::max);
+        let has_plane = longer > FLATTEST * FLATTEST * size_sq && norm(normal) > FLATTEST * longer;
         if !has_plane {
             let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
             return Self { axes, has_plane };

@@ -306,3 +306,37 @@ fn bounded_curvature_has_a_limit_in_every_direction() {
         }
     }
 }
+
+/// Anywhere on cages with faces split to every level and n-gons: central differences of positions
+/// and of first derivatives, which the C2 borders do not disturb.
+#[test]
+fn derivatives_agree_with_differences_at_random_points() {
+    for name in ["own_polygons.obj", "own_blob_quadriflow_300.obj", "obstacle/pillow_n8.obj"] {
+        for scheme in SchemeKind::ALL {
+            let surface = common::surface(&common::cage(name), scheme);
+            let mut random = Random::new(13);
+            for _ in 0..200 {
+                let quad = QuadId(random.below(surface.num_quads()) as u32);
+                let [u, v] = [0, 1].map(|_| 0.02 + 0.96 * random.unit());
+                let h = 1e-4;
+                let jet = |u: f64, v: f64| surface.eval(quad, u, v).unwrap().jet;
+                let here = jet(u, v);
+                let slope = |a: Point, b: Point| scale(0.5 / h, sub(a, b));
+                let (right, left) = (jet(u + h, v), jet(u - h, v));
+                let (above, below) = (jet(u, v + h), jet(u, v - h));
+                let size = norm(here.du) + norm(here.dv) + norm(here.duu) + norm(here.dvv);
+                for (found, exact) in [
+                    (slope(right.p, left.p), here.du),
+                    (slope(above.p, below.p), here.dv),
+                    (slope(right.du, left.du), here.duu),
+                    (slope(above.du, below.du), here.duv),
+                    (slope(above.dv, below.dv), here.dvv),
+                ] {
+                    // Third derivatives are bounded by 1/(distance to a point) times the second.
+                    let gap = distance(found, exact);
+                    assert!(gap < 0.02 * size, "{name}, {}: {gap} of {size}", scheme.name());
+                }
+            }
+        }
+    }
+}

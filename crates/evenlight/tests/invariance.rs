@@ -169,3 +169,33 @@ fn the_first_corner_of_a_face_does_not_matter() {
         }
     }
 }
+
+/// The same with n-gons, whose quads are numbered by corner.
+#[test]
+fn the_order_of_n_gons_and_their_corners_does_not_matter() {
+    let mesh = common::mesh("own_polygons.obj");
+    let count = mesh.faces.len();
+    let faces: Vec<Vec<u32>> = mesh.faces.iter().map(|f| f.iter().map(|v| v.0).collect()).collect();
+    // Faces in reverse order, each beginning one corner later.
+    let turned = faces.iter().rev().map(|face| {
+        let mut face = face.clone();
+        face.rotate_left(1);
+        face
+    });
+    let turned = Mesh::new(mesh.positions.clone(), turned);
+    for scheme in SchemeKind::ALL {
+        let (a, b) = (build(mesh.clone(), scheme), build(turned.clone(), scheme));
+        for (quad, u, v) in samples(&a, 500) {
+            let (face, k) = a.face_of(quad);
+            let corners = faces[face.index()].len();
+            let other = evenlight::FaceId((count - 1 - face.index()) as u32);
+            let (corner, s, t) =
+                if corners == 4 { (0, v, 1.0 - u) } else { ((k + corners - 1) % corners, u, v) };
+            let other = b.quad(other, corner).expect("the face is there");
+            let (Some(p), Some(q)) = (a.eval(quad, u, v), b.eval(other, s, t)) else {
+                panic!("the cage is closed");
+            };
+            assert!(distance(p.jet.p, q.jet.p) < 1e-13, "{}", scheme.name());
+        }
+    }
+}

@@ -31,7 +31,7 @@ fn catmull_clark_has_its_closed_form_eigenvalues() {
     }
 }
 
-/// Full precision: `report.txt` of the specification, computed by an independent program.
+/// Full precision: numbers of an independent program in double precision (a prototype of ours).
 #[allow(clippy::approx_constant, reason = "mu/lambda^2 at n = 9 happens to look like pi/3")]
 #[test]
 fn generated_evolving_guide_rules_have_the_reference_spectrum() {
@@ -86,7 +86,7 @@ fn published_evolving_guide_rules_have_the_printed_spectrum() {
     }
 }
 
-/// [KP23-QAS, Section 5] and `report.txt`, `qas3_spectrum.txt` of the specification.
+/// [KP23-QAS, Section 5] and the prototype's numbers for the largest eigenvalues of M_d.
 #[test]
 fn quadratic_attraction_has_bounded_curvature_at_every_valence() {
     let qas4 = [

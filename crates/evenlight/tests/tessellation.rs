@@ -242,6 +242,33 @@ fn normals_are_unit_vectors_and_curvature_exists_everywhere() {
     }
 }
 
+/// A quad cut into three along two paths between opposite corners: the middle of each path has
+/// two edges only, and no tangent plane.
+#[test]
+fn vertices_of_valence_2_have_a_normal_too() {
+    let mut mesh = common::mesh("obstacle/polycube_corner_m2.obj");
+    let faces: Vec<Vec<u32>> = mesh.faces.iter().map(|f| f.iter().map(|v| v.0).collect()).collect();
+    let [a, b, c, d] = faces[0][..] else { unreachable!("the cage has quads only") };
+    let middle = |x: u32, y: u32, z: u32| {
+        let p = [x, y, z].map(|v| mesh.positions[v as usize]);
+        [0, 1, 2].map(|k| (p[0][k] + p[1][k] + p[2][k]) / 3.0)
+    };
+    let added = [middle(a, b, c), middle(a, c, d)];
+    let n = mesh.positions.len() as u32;
+    mesh.positions.extend(added);
+    let split = [vec![a, b, c, n], vec![a, n, c, n + 1], vec![a, n + 1, c, d]];
+    let faces = split.into_iter().chain(faces.into_iter().skip(1));
+    let mesh = Mesh::new(mesh.positions, faces);
+    let surface = surface(mesh, SchemeKind::CatmullClark);
+    let valence_2 = surface.extraordinary_points().iter().filter(|p| p.valence == 2);
+    assert!(valence_2.clone().count() == 2 && valence_2.clone().all(|p| p.normal[0].is_nan()));
+    for rate in [1, 4] {
+        let triangles = tessellate(&surface, rate).unwrap();
+        assert!(triangles.normals.iter().all(|&n| (norm(n) - 1.0).abs() < 1e-14));
+        assert!(triangles.gauss.iter().chain(&triangles.mean).all(|x| x.is_finite()));
+    }
+}
+
 #[test]
 fn extraordinary_points_are_vertices_with_the_limit_normal() {
     for (name, surface) in closed_surfaces() {

@@ -7,7 +7,7 @@ use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
 
 use super::steps::Step;
 use super::subject::{CloseUp, RINGS, Subject};
-use super::{CAGE_FILE, POINTS_FILE};
+use super::{CAGE_FILE, EDIT_FILE, POINTS_FILE};
 use crate::analyze::{LEGEND, jump_table, point_table};
 use crate::error::Failure;
 use crate::spectrum;
@@ -31,12 +31,13 @@ pub fn markdown(
 
 /// A few lines for the terminal.
 pub fn summary(folder: &Path, subject: &Subject, steps: &[Step]) -> String {
-    let [cc, eg] = subject.analyses.each_ref().map(|a| a.worst_growth());
+    let [cc, eg, qas4] = subject.analyses.each_ref().map(|a| a.worst_growth());
     format!(
         "{} files in {}: begin with report.md\n\
          cage: {}\n\
-         range of mean curvature, ring {RINGS} : ring 1, at the worst point: cc {cc:.2}, eg {eg:.2}\n",
-        steps.len() + 3,
+         range of mean curvature, ring {RINGS} : ring 1, at the worst point: cc {cc:.2}, \
+         eg {eg:.2}, qas4 {qas4:.2}\n",
+        steps.len() + 4,
         folder.display(),
         counts(subject)
     )
@@ -55,9 +56,10 @@ fn counts(subject: &Subject) -> String {
 fn introduction(subject: &Subject) -> String {
     format!(
         "# Evenlight, demonstrated\n\n\
-         One cage, two surfaces: Catmull-Clark (`cc`) and Evolving-Guide (`eg`). Away from \
-         extraordinary vertices both are the same bi-cubic splines; around them they differ, \
-         and highlight lines and curvature show how.\n\n\
+         One cage, three surfaces: Catmull-Clark (`cc`), Evolving-Guide (`eg`) and \
+         Quadratic-Attraction (`qas4`, the default). Away from extraordinary vertices all are \
+         the same bi-cubic splines; around them they differ, and highlight lines and curvature \
+         show how.\n\n\
          The cage has {}.\n",
         counts(subject)
     )
@@ -72,7 +74,7 @@ fn pictures(steps: &[Step]) -> String {
 }
 
 fn curvature(subject: &Subject, close_ups: &[CloseUp]) -> String {
-    let is_shown = |p: &ExtraordinaryPoint| {
+    let is_shown = |_: usize, p: &ExtraordinaryPoint| {
         p.vertex.is_some_and(|v| close_ups.iter().any(|close_up| close_up.vertex == v.0))
     };
     let points = point_table(&subject.analyses, is_shown).markdown();
@@ -88,15 +90,18 @@ fn curvature(subject: &Subject, close_ups: &[CloseUp]) -> String {
 
 fn spectra() -> Result<String, Failure> {
     let mut text = "## Eigenvalues\n".to_owned();
-    for (scheme, name) in
-        [(SchemeKind::EvolvingGuide, "Evolving-Guide"), (SchemeKind::CatmullClark, "Catmull-Clark")]
-    {
+    for (scheme, name) in [
+        (SchemeKind::Qas4, "Quadratic-Attraction"),
+        (SchemeKind::EvolvingGuide, "Evolving-Guide"),
+        (SchemeKind::CatmullClark, "Catmull-Clark"),
+    ] {
         let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
         let table = spectrum::table(&spectrum::spectra(options, &(3..=10), true)?);
         text += &format!("\n{name}:\n\n{}", table.markdown());
     }
-    text += "\nCurvature is bounded where mu/lambda^2 is 1 or less, and the surface is C1 where the \
-             smallest Jacobian of the characteristic map is positive.\n";
+    text += "\nCurvature is bounded where mu/lambda^2 is 1 or less; with a quadratic that is so if \
+             the control net dies faster, M_d/lambda^2 below 1. The surface is C1 where the \
+             characteristic map is injective, proved by the coefficients of its Jacobian.\n";
     Ok(text)
 }
 
@@ -107,6 +112,7 @@ fn files(steps: &[Step]) -> String {
     };
     row(CAGE_FILE, "the cage", "");
     row(POINTS_FILE, "parameters on the way to extraordinary vertices", "");
+    row(EDIT_FILE, "a quadratic pushed inwards, for `--q`", "");
     for Step { file, about, command } in steps {
         row(file, about, &format!("`evenlight {command}`"));
     }

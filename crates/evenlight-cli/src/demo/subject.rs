@@ -3,13 +3,19 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
-use evenlight::point::{norm, sub};
+use evenlight::point::{dot, norm, scale, sub};
 use evenlight::surface::{ExtraordinaryPoint, Sector};
-use evenlight::{Cage, Point, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Cage, Point, RuleSet, SchemeKind, Surface, SurfaceOptions, Vector};
+
+use serde_json::json;
 
 use crate::analyze::Analysis;
 use crate::error::Failure;
 use crate::input::{self, Source};
+
+/// The schemes that are compared.
+pub const SCHEMES: [SchemeKind; 3] =
+    [SchemeKind::CatmullClark, SchemeKind::EvolvingGuide, SchemeKind::Qas4];
 
 /// The rings that are analysed.
 pub const RINGS: usize = 6;
@@ -17,12 +23,18 @@ pub const RINGS: usize = 6;
 /// How often the points on the way to a vertex halve their distance.
 const HALVINGS: i32 = 10;
 
+/// How far the edited quadratic is pushed, as a multiple of the distance from q_1 to q_3.
+const DEPTH: f64 = 0.4;
+
+/// Roughly the direction of the eye in the default view.
+const EYE: Vector = [0.45, -0.78, 0.42];
+
 /// The cage, and what was measured on its surfaces.
 pub struct Subject {
     /// The cage.
     pub cage: Arc<Cage>,
-    /// With Catmull-Clark, then with Evolving-Guide.
-    pub analyses: [Analysis; 2],
+    /// With [`SCHEMES`].
+    pub analyses: [Analysis; 3],
 }
 
 /// An extraordinary vertex that gets a picture of its own.
@@ -35,20 +47,46 @@ pub struct CloseUp {
     pub zoom: f64,
 }
 
+/// The vertex whose quadratic is edited.
+pub struct Handle {
+    /// The vertex, from 0.
+    pub vertex: u32,
+    /// Its valence.
+    pub valence: usize,
+    /// Its limit point.
+    pub position: Point,
+    /// The magnification that shows the faces around it.
+    pub zoom: f64,
+    /// The largest absolute mean curvature around it, rounded up to a tenth.
+    pub largest_mean: f64,
+    /// How its quadratic is moved: inwards.
+    pub push: Vector,
+}
+
+impl Handle {
+    /// The file that moves the quadratic.
+    pub fn edit(&self) -> String {
+        let Self { vertex, push, .. } = self;
+        format!("[{}]\n", json!({"vertex": vertex, "affine": {"translation": push}}))
+    }
+}
+
 impl Subject {
     /// Reads the cage in `source` and analyses its surfaces.
     pub fn new(source: &Source) -> Result<Self, Failure> {
         let cage = input::read_cage(source)?;
-        let analyse = |scheme| {
+        let analyse = |scheme| -> Result<Analysis, Failure> {
             let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
-            Analysis::of(&cage, options, RINGS, source)
+            let surface = input::build(Arc::clone(&cage), options, source)?;
+            Ok(Analysis::of(surface, RINGS))
         };
-        let analyses = [analyse(SchemeKind::CatmullClark)?, analyse(SchemeKind::EvolvingGuide)?];
+        let [cc, eg, qas4] = SCHEMES.map(analyse);
+        let analyses = [cc?, eg?, qas4?];
         Ok(Self { cage, analyses })
     }
 
     fn surface(&self) -> &Surface {
-        self.analyses[1].surface()
+        self.analyses[2].surface()
     }
 
     /// One vertex of every valence, the lowest first: that at which the mean curvature of
@@ -87,6 +125,27 @@ impl Subject {
             }
         }
         text
+    }
+
+    /// The vertex of the highest valence whose normal points most to the eye of the default view.
+    pub fn handle(&self) -> Option<Handle> {
+        let points = self.surface().extraordinary_points().iter().enumerate();
+        let facing = |p: &ExtraordinaryPoint| dot(p.normal, EYE);
+        let better = |a: &ExtraordinaryPoint, b: &ExtraordinaryPoint| {
+            b.valence > a.valence || (b.valence == a.valence && facing(b) > facing(a))
+        };
+        let vertices = points.filter(|(_, p)| p.vertex.is_some());
+        let (k, point) = vertices.reduce(|a, b| if better(a.1, b.1) { b } else { a })?;
+        let q = self.surface().rings(k).quadratic()?;
+        let depth = DEPTH * norm(sub(q.coefs[2], q.center()));
+        Some(Handle {
+            vertex: point.vertex?.0,
+            valence: point.valence,
+            position: point.position,
+            zoom: zoom(self.surface(), point),
+            largest_mean: (10.0 * self.analyses[2].largest_mean(k)).ceil() / 10.0,
+            push: scale(-depth, point.normal),
+        })
     }
 }
 

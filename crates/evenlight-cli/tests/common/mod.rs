@@ -23,6 +23,9 @@ pub const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n\
 pub const TETRAHEDRON: &str =
     "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
+/// The short names of all schemes.
+pub const SCHEMES: [&str; 6] = ["cc", "eg", "pas3", "pas4", "qas3", "qas4"];
+
 /// The path of one of the project's test cages.
 pub fn cage(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes").join(name)
@@ -62,6 +65,24 @@ pub fn stderr(output: &Output) -> String {
 /// The JSON on stdout.
 pub fn json(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// All numbers in `value`, in order.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Number(x) => vec![x.as_f64().unwrap()],
+        Value::Array(values) => values.iter().flat_map(numbers).collect(),
+        Value::Object(values) => values.values().flat_map(numbers).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// A file with `text` in a folder of its own, which lives as long as the first of the two.
+pub fn file(name: &str, text: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).unwrap();
+    (folder, path)
 }
 
 /// `path` as an argument.

@@ -4,5 +4,6 @@ pub mod continuity;
 pub mod curvature;
 pub mod highlight;
 pub mod injectivity;
+pub mod shape;
 #[cfg(feature = "spectrum")]
 pub mod spectrum;

@@ -55,7 +55,7 @@ impl CNet {
         self.weighted(n / (n + 5.0), 4.0 / (n * (n + 5.0)), 1.0 / (n * (n + 5.0)))
     }
 
-    /// The limit point c_0 of Evolving-Guide subdivision [KP23-EG, eq. 3]: Catmull-Clark's,
+    /// The limit point c_0 of all schemes but Catmull-Clark [KP23-EG, eq. 3]: Catmull-Clark's,
     /// slightly corrected for n = 3.
     pub fn evolving_guide_limit(&self) -> Point {
         if self.valence() == 3 {

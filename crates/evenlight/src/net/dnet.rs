@@ -66,6 +66,10 @@ impl DNet {
     ///
     /// DIFFERENCE: the paper gives the solution for bi-4 in closed form, with a misprint in e_32
     /// (48 (8483 n - 5008) for n > 4); here the 7 x 7 normal equations are solved, for bi-3 too.
+    ///
+    /// # Panics
+    ///
+    /// If there are no sectors.
     pub fn center(&self, spline: Spline) -> Point {
         let first = self.sectors[0][0];
         let weights = center_weights(self.valence(), spline);

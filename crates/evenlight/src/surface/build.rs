@@ -53,11 +53,15 @@ fn advice(scheme: SchemeKind, rules: RuleSet, points: &[(Place, usize)]) -> Stri
     ways.join(", or ")
 }
 
-/// The points of an error message, 1-based as in files, at most eight of them.
+/// The points of an error message, at most eight of them.
 fn list_places(points: &[(Place, usize)]) -> String {
     let name = |&(place, valence): &(Place, usize)| match place {
-        Place::Vertex(v) => format!("vertex {} has valence {valence}", v.0 + 1),
-        Place::FaceCentre(f) => format!("face {} has {valence} corners", f.0 + 1),
+        Place::Vertex(v) => {
+            format!("vertex {} (number {} in a file) has valence {valence}", v.0, v.0 + 1)
+        }
+        Place::FaceCentre(f) => {
+            format!("face {} (number {} in a file) has {valence} corners", f.0, f.0 + 1)
+        }
     };
     let mut names: Vec<String> = points.iter().take(8).map(name).collect();
     if points.len() > names.len() {

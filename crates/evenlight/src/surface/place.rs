@@ -36,7 +36,7 @@ pub struct PatchPlace {
     /// same directions.
     pub domain: [[f64; 2]; 2],
     /// The extraordinary point it belongs to, as an index into
-    /// [`Surface::extraordinary_points`]; `None` for regular patches.
+    /// [`Surface::extraordinary_points`](super::Surface::extraordinary_points); `None` for regular patches.
     pub point: Option<usize>,
     /// The sector of that point, from 0.
     pub sector: Option<usize>,
@@ -75,7 +75,7 @@ pub struct PlacedPatch {
     /// same directions.
     pub domain: [[f64; 2]; 2],
     /// The extraordinary point it belongs to, as an index into
-    /// [`Surface::extraordinary_points`]; `None` for regular patches.
+    /// [`Surface::extraordinary_points`](super::Surface::extraordinary_points); `None` for regular patches.
     pub point: Option<usize>,
     /// The sector of that point, from 0.
     pub sector: Option<usize>,

@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 
 use crate::parallel::map_indexed;
 use crate::patch::SurfacePoint;
-use crate::point::{Point, Vector, dot, sub};
+use crate::point::{Point, Vector, add, dot, sub, unit};
 use crate::surface::{QuadId, Surface};
 use nodes::{Grid, Nodes};
 
@@ -40,7 +40,8 @@ use nodes::{Grid, Nodes};
 pub struct TriangleMesh {
     /// Points of the surface, in the units of the cage.
     pub positions: Vec<Point>,
-    /// The unit normals of the surface, outward; NaN where the surface has none.
+    /// The unit normals of the surface, outward; NaN where neither the surface nor what is around
+    /// has one.
     pub normals: Vec<Vector>,
     /// The Gauss curvature K in 1/length^2; see [`tessellate`] for extraordinary points.
     pub gauss: Vec<f64>,
@@ -107,8 +108,9 @@ pub enum TessellateError {
 /// for each face.
 ///
 /// Normals and curvatures are those of the surface, not of the triangles. At an extraordinary
-/// point the vertex is the limit point with the limit normal; curvature does not exist there,
-/// and the mesh has instead the mean of the values in the middle of the cells around it.
+/// point the vertex is the limit point with the limit normal. Where curvature does not exist there
+/// (schemes without a quadratic), or no tangent plane (valence 2, cusps), the mesh has instead the
+/// mean of the values in the middle of the cells around.
 ///
 /// # Errors
 ///
@@ -121,7 +123,7 @@ pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, Tessel
     let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
     mesh.origins = origins(surface, &nodes);
     mesh.evaluate(surface);
-    mesh.fill_missing_curvature(surface, &nodes);
+    mesh.fill_what_is_missing(surface, &nodes);
     mesh.triangulate(surface, &nodes);
     Ok(mesh)
 }
@@ -181,9 +183,10 @@ impl TriangleMesh {
         }
     }
 
-    /// Gives the extraordinary points, which are corners of quads, a curvature to show: the
-    /// mean over the middles of the cells around, which do not depend on how cells are cut.
-    fn fill_missing_curvature(&mut self, surface: &Surface, nodes: &Nodes) {
+    /// Gives extraordinary points, which are corners of quads, the curvature and the normal that
+    /// they lack: the mean over the middles of the cells around, which do not depend on how cells
+    /// are cut.
+    fn fill_what_is_missing(&mut self, surface: &Surface, nodes: &Nodes) {
         let mut around: BTreeMap<u32, Vec<SurfacePoint>> = BTreeMap::new();
         for grid in nodes.grids() {
             let m = grid.segments;
@@ -200,6 +203,10 @@ impl TriangleMesh {
             let n = points.len() as f64;
             self.gauss[node as usize] = points.iter().map(|p| p.gauss).sum::<f64>() / n;
             self.mean[node as usize] = points.iter().map(|p| p.mean).sum::<f64>() / n;
+            let normal = &mut self.normals[node as usize];
+            if normal[0].is_nan() {
+                *normal = unit(points.iter().fold([0.0; 3], |sum, p| add(sum, p.normal)));
+            }
         }
     }
 

@@ -1,0 +1,182 @@
+//! `evenlight q`: the quadratics at extraordinary points, and `--q`, which replaces them.
+//!
+//! ```text
+//! evenlight q cage.obj --json -o q.json     the default quadratics
+//!            (edit q.json)
+//! evenlight mesh cage.obj --q q.json ...    the surface that they attract
+//! ```
+//!
+//! The six points of a quadratic, as JSON lists them, lie like this in a sector:
+//!
+//! ```text
+//!        line s                coefficients[0] = q_1 is the limit point, with q_2 and q_4 it
+//!     q_6                      spans the tangent plane; the others bend the surface
+//!     q_4  q_5
+//!     q_1  q_2  q_3  line s-1
+//! ```
+
+mod edits;
+mod file;
+
+use std::io::{self, Write};
+
+use clap::Args;
+use evenlight::net::Quadratic;
+use evenlight::surface::ExtraordinaryPoint;
+use evenlight::{Point, SchemeKind, Surface};
+use serde_json::json;
+
+use crate::error::Failure;
+use crate::input::{self, Source};
+use crate::options::SurfaceArgs;
+use crate::output::Target;
+use crate::table::{Table, point_name, short, triple};
+pub use edits::Edits;
+
+/// Arguments of `evenlight q`.
+#[derive(Args, Debug)]
+pub struct QArgs {
+    #[command(flatten)]
+    surface: SurfaceArgs,
+
+    /// JSON instead of a table: a list that `--q` reads, with the six points of q in sector 0
+    #[arg(long)]
+    json: bool,
+
+    /// JSON with the six points of q in every sector, in place of those in sector 0
+    #[arg(long)]
+    sectors: bool,
+
+    /// The file to write; `-` for stdout
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: Target,
+}
+
+/// The option `--q`.
+#[derive(Args, Clone, Debug)]
+pub struct QArg {
+    /// JSON file with quadratics that replace the default ones (qas3, qas4); `-` for stdin
+    ///
+    /// A list (or {"points": LIST}) of objects with "vertex": ID, or "face": ID for the centre
+    /// of a face that is no quad, numbered from 0, and one of:
+    ///
+    /// "affine": {"matrix": [[3], [3], [3]], "translation": [3]}: the default q moved, about its
+    /// own centre p: x -> p + M (x - p) + t. The matrix M has rows; without it, M is the
+    /// identity; without translation, t is 0.
+    ///
+    /// "coefficients": [6 points]: q_1 to q_6 in sector 0, as `evenlight q --json` prints them.
+    ///
+    /// "sectors": [n lists of 6 points]: one proposal per sector, as `evenlight q --sectors`
+    /// prints them; their mean is taken.
+    #[arg(long = "q", value_name = "FILE")]
+    pub file: Option<Source>,
+}
+
+impl QArg {
+    /// The quadratics for surfaces over `cage` with the given schemes.
+    ///
+    /// # Errors
+    ///
+    /// Wrong usage if none of the schemes has a quadratic, or cage and quadratics would both come
+    /// from stdin; else if the file cannot be read or understood.
+    pub fn read(&self, cage: &Source, schemes: &[SchemeKind]) -> Result<Edits, Failure> {
+        let Some(source) = &self.file else { return Ok(Edits::default()) };
+        if !schemes.iter().any(|scheme| scheme.has_quadratic()) {
+            let names: Vec<&str> = schemes.iter().map(|scheme| scheme.name()).collect();
+            return Err(no_quadratic("--q", &names.join(", ")));
+        }
+        input::refuse_shared_stdin(&[("cage", cage), ("--q", source)])?;
+        Edits::parse(source, &source.read_text()?)
+    }
+}
+
+/// The failure of something that needs a quadratic.
+fn no_quadratic(what: &str, scheme: &str) -> Failure {
+    let with = SchemeKind::ALL.into_iter().filter(|scheme| scheme.has_quadratic());
+    let with: Vec<&str> = with.map(SchemeKind::name).collect();
+    Failure::Usage(format!(
+        "{what}: the scheme {scheme} has no quadratic; choose --scheme {}",
+        with.join(" or ")
+    ))
+}
+
+/// Runs `evenlight q`.
+pub fn run(args: &QArgs) -> Result<(), Failure> {
+    let scheme = args.surface.scheme;
+    if !scheme.has_quadratic() {
+        return Err(no_quadratic("q", scheme.name()));
+    }
+    let surface = input::read_surface(&args.surface)?;
+    let rows = rows(&surface);
+    args.output.write(|out| match (args.json, args.sectors) {
+        (false, false) => write!(out, "{}", table(&rows)),
+        (_, with_sectors) => write_json(&rows, with_sectors, out),
+    })
+}
+
+/// The quadratic at one point.
+struct Row<'a> {
+    place: &'a ExtraordinaryPoint,
+    q: Quadratic,
+    /// The larger first, in 1/unit; NaN without a tangent plane.
+    principal_curvatures: [f64; 2],
+}
+
+fn rows(surface: &Surface) -> Vec<Row<'_>> {
+    let points = surface.extraordinary_points().iter().enumerate();
+    let row = |(k, place)| {
+        let rings = surface.rings(k);
+        let q = *rings.quadratic().expect("the scheme has quadratics");
+        let principal_curvatures = rings.eval(0, 0.0, 0.0).principal_curvatures();
+        Row { place, q, principal_curvatures }
+    };
+    points.map(row).collect()
+}
+
+/// The quadratics for people.
+fn table(rows: &[Row]) -> Table {
+    let mut table = Table::new(&["point", "valence", "center", "normal", "k1", "k2"]);
+    for Row { place, principal_curvatures: k, .. } in rows {
+        let vectors = [place.position, place.normal].map(triple);
+        let names = [point_name(place), place.valence.to_string()];
+        table.push(names.into_iter().chain(vectors).chain(k.map(short)));
+    }
+    table
+}
+
+/// A list of objects, one point of a quadratic per line.
+fn write_json(rows: &[Row], with_sectors: bool, out: &mut dyn Write) -> io::Result<()> {
+    let objects: Vec<String> = rows.iter().map(|row| object(row, with_sectors)).collect();
+    writeln!(out, "[{}]", objects.join(","))
+}
+
+fn object(row: &Row, with_sectors: bool) -> String {
+    let Row { place, q, principal_curvatures } = row;
+    let id = match (place.vertex, place.face) {
+        (Some(v), _) => format!("\"vertex\": {}", v.0),
+        (_, Some(f)) => format!("\"face\": {}", f.0),
+        _ => unreachable!("a point is a vertex or the centre of a face"),
+    };
+    let points = if with_sectors {
+        let sectors = (0..place.valence).map(|s| q.in_sector(place.valence, s).coefs);
+        format!("\"sectors\": [{}]", sectors.map(|q| lines(&q)).collect::<Vec<_>>().join(","))
+    } else {
+        format!("\"coefficients\": {}", lines(&q.coefs))
+    };
+    // What does not exist is null: JSON has no word for NaN.
+    format!(
+        "\n{{{id}, \"valence\": {}, \"center\": {},\n\"normal\": {}, \"principal_curvatures\": {},\n{points}}}",
+        place.valence,
+        json!(place.position),
+        json!(existing(place.normal)),
+        json!(existing(*principal_curvatures)),
+    )
+}
+
+fn existing<const N: usize>(numbers: [f64; N]) -> Option<[f64; N]> {
+    numbers.iter().all(|x| x.is_finite()).then_some(numbers)
+}
+
+fn lines(points: &[Point; 6]) -> String {
+    format!("[\n  {}]", points.map(|p| json!(p).to_string()).join(",\n  "))
+}
