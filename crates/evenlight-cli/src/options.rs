@@ -84,6 +84,10 @@ fn about_scheme(scheme: SchemeKind) -> &'static str {
         SchemeKind::Qas4 => {
             "Quadratic-Attraction: bi-4, 3n patches per ring; C1, curvature bounded"
         }
+        SchemeKind::Guided3 => "Guided C2: bi-3, 27n patches per ring; C1, curvature bounded",
+        SchemeKind::Guided4 => "Guided C2: bi-4, 12n patches per ring; C1, curvature bounded",
+        SchemeKind::Guided5 => "Guided C2: bi-5, 3n patches per ring; C1, curvature bounded",
+        SchemeKind::Guided6 => "Guided C2: bi-6, 3n patches per ring; C2, curvature continuous",
     }
 }
 
