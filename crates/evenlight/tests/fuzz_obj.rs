@@ -226,7 +226,7 @@ fn hold_to_the_contract(bytes: &[u8]) -> bool {
         Ok((cage, notices)) => {
             assert!(notices.iter().all(|notice| !notice.to_string().is_empty()));
             let (positions, faces) = (cage.positions().to_vec(), cage.topology().faces().clone());
-            let mesh = Mesh { positions, faces };
+            let mesh = Mesh { positions, faces, ..Mesh::default() };
             let mut text = Vec::new();
             obj::write(&mesh, &mut text).unwrap();
             assert_eq!(obj::read(&text).unwrap().mesh, mesh);

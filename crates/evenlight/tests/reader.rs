@@ -310,8 +310,11 @@ fn all_our_meshes_are_read_checked_and_written() {
     for path in &files {
         let (cage, notices) = load(path);
         assert_eq!(notices, [], "{}", path.display());
-        let mesh =
-            Mesh { positions: cage.positions().to_vec(), faces: cage.topology().faces().clone() };
+        let mesh = Mesh {
+            positions: cage.positions().to_vec(),
+            faces: cage.topology().faces().clone(),
+            ..Mesh::default()
+        };
         assert_eq!(read(written(&mesh)).mesh, mesh, "{}", path.display());
     }
 }

@@ -23,7 +23,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{CheckError, FaceId, Faces, Mesh, MeshError, Topology, VertexId, Warning};
+use super::{
+    CheckError, FaceId, Faces, Mesh, MeshError, Primvar, Tags, Topology, VertexId, Warning,
+};
 use crate::point::Point;
 
 /// A mesh that passed all checks, with its connectivity.
@@ -33,6 +35,8 @@ use crate::point::Point;
 pub struct Cage {
     positions: Vec<Point>,
     topology: Topology,
+    tags: Tags,
+    primvars: Vec<Primvar>,
     warnings: Vec<Warning>,
 }
 
@@ -63,7 +67,8 @@ impl Cage {
         }
         let topology = connect(&mesh.faces, mesh.positions.len())?;
         let warnings = warnings(&topology);
-        Ok(Self { positions: mesh.positions, topology, warnings })
+        let Mesh { positions, tags, primvars, .. } = mesh;
+        Ok(Self { positions, topology, tags, primvars, warnings })
     }
 
     /// The position of every vertex, those in no face included.
@@ -74,6 +79,16 @@ impl Cage {
     /// The connectivity.
     pub fn topology(&self) -> &Topology {
         &self.topology
+    }
+
+    /// Boundary rule, creases, corners, holes.
+    pub fn tags(&self) -> &Tags {
+        &self.tags
+    }
+
+    /// Values beside the positions.
+    pub fn primvars(&self) -> &[Primvar] {
+        &self.primvars
     }
 
     /// What was accepted but should be known.

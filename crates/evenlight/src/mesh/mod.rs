@@ -9,11 +9,16 @@ mod check;
 mod fault;
 pub mod isolation;
 mod refine;
+mod tags;
 mod topology;
 
 pub use check::Cage;
 pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
+pub use tags::{
+    BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,
+    Primvar, Tags,
+};
 pub use topology::{HalfEdgeId, Ring, Topology};
 
 use crate::point::Point;
@@ -40,23 +45,27 @@ impl FaceId {
     }
 }
 
-/// Positions and faces, as read; [`Cage::new`] checks them.
+/// A mesh as read; [`Cage::new`] checks it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// The position of every vertex.
     pub positions: Vec<Point>,
     /// The corners of every face, counter-clockwise seen from outside.
     pub faces: Faces,
+    /// Boundary rule, creases, corners, holes.
+    pub tags: Tags,
+    /// Values beside the positions.
+    pub primvars: Vec<Primvar>,
 }
 
 impl Mesh {
-    /// Builds a mesh from positions and lists of vertex numbers (from 0).
+    /// Builds a mesh without tags or primvars from positions and lists of vertex numbers (from 0).
     pub fn new<F: AsRef<[u32]>>(positions: Vec<Point>, faces: impl IntoIterator<Item = F>) -> Self {
         let mut list = Faces::default();
         for face in faces {
             list.push(face.as_ref().iter().map(|&v| VertexId(v)));
         }
-        Self { positions, faces: list }
+        Self { positions, faces: list, ..Self::default() }
     }
 }
 

@@ -361,7 +361,7 @@ mod tests {
             let faces = cage.topology().faces().clone();
             let move_point = |p: &Point| std::array::from_fn(|k| factor[k] * p[k]);
             let positions = cage.positions().iter().map(move_point).collect();
-            let surface = surface(Mesh { positions, faces });
+            let surface = surface(Mesh { positions, faces, ..Mesh::default() });
             for style in Style::ALL {
                 let picture =
                     super::super::render(&surface, &RenderOptions { style, ..options.clone() });

@@ -237,7 +237,7 @@ impl<'a> Reader<'a> {
     }
 
     fn into_obj(self) -> Obj {
-        let mesh = Mesh { positions: self.positions, faces: self.faces };
+        let mesh = Mesh { positions: self.positions, faces: self.faces, ..Mesh::default() };
         Obj { mesh, source: self.source, unknown_tags: self.tags.list }
     }
 }

@@ -1,0 +1,113 @@
+//! What a file says about a cage beyond positions and faces: rules, sharpness, holes, primvars.
+//!
+//! Names and meanings are those of OpenSubdiv, so that tags mean here what they mean in the
+//! programs that cages come from.
+
+use super::{FaceId, VertexId};
+
+/// What happens at the boundary of an open cage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BoundaryRule {
+    /// Faces that touch the boundary have no surface.
+    None,
+    /// The boundary is a smooth curve, also at vertices of a single face.
+    EdgeOnly,
+    /// The boundary is a smooth curve that passes through the vertices of a single face.
+    #[default]
+    EdgeAndCorner,
+}
+
+/// How the sharpness of a crease falls from one refinement to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CreaseMethod {
+    /// By one.
+    #[default]
+    Uniform,
+    /// Averaged along the crease as in Chaikin's corner cutting, then by one.
+    Chaikin,
+}
+
+/// Which parts of a face-varying channel are interpolated linearly instead of smoothly.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FaceVaryingRule {
+    /// None: seams and corners are smooth.
+    None,
+    /// Corners of the channel that only one face has.
+    CornersOnly,
+    /// These, and the vertices where more than two seams meet, and darts and concave corners.
+    #[default]
+    CornersPlus1,
+    /// These, and all seams' ends.
+    CornersPlus2,
+    /// All seams.
+    Boundaries,
+    /// Everything.
+    All,
+}
+
+/// The sharpness from which on an edge or vertex is sharp for ever.
+pub const INFINITELY_SHARP: f64 = 10.0;
+
+/// The sharpness of an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crease {
+    /// The ends of the edge.
+    pub edge: [VertexId; 2],
+    /// From 0 (smooth) to [`INFINITELY_SHARP`] or more.
+    pub sharpness: f64,
+}
+
+/// The sharpness of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// From 0 (smooth) to [`INFINITELY_SHARP`] or more.
+    pub sharpness: f64,
+}
+
+/// Rules, sharpness and holes; by default none, with the boundary rule edge-and-corner.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tags {
+    /// The rule at the boundary.
+    pub boundary: BoundaryRule,
+    /// The rule for semi-sharp creases.
+    pub crease_method: CreaseMethod,
+    /// The rule for face-varying channels.
+    pub face_varying: FaceVaryingRule,
+    /// Sharp edges; of an edge that is named twice the last counts.
+    pub creases: Vec<Crease>,
+    /// Sharp vertices; of a vertex that is named twice the last counts.
+    pub corners: Vec<Corner>,
+    /// Faces that take part in refinement but have no surface.
+    pub holes: Vec<FaceId>,
+}
+
+/// How the values of a primvar go over a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Interpolation {
+    /// One value per vertex, by the basis of the positions.
+    Vertex,
+    /// One value per vertex, bilinear over every face.
+    Varying,
+    /// One value per corner of a face, smooth but where corners of a vertex differ.
+    FaceVarying,
+}
+
+/// Values that are carried beside positions: UVs, colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Primvar {
+    /// The name, unique among the cage's primvars.
+    pub name: String,
+    /// How its values are interpolated.
+    pub interpolation: Interpolation,
+    /// The numbers in a value, 1 to 4.
+    pub width: usize,
+    /// The values, `width` numbers each.
+    pub values: Vec<f64>,
+    /// Of a face-varying channel, the value of every corner in the order of
+    /// [`Faces::all_corners`](super::Faces::all_corners); corners of a vertex with one number are
+    /// joined, those with several are apart. Empty for the others, whose values are in the order
+    /// of the vertices.
+    pub indices: Vec<u32>,
+}
