@@ -59,6 +59,7 @@
 //! | [`net`] | control nets around one extraordinary point, the quadratic q |
 //! | [`scheme`] | which rules there are |
 //! | [`rings`] | the surface around one extraordinary point at any depth |
+//! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
@@ -72,6 +73,7 @@
 
 pub mod analyse;
 mod angle;
+pub mod basis;
 pub mod io;
 pub mod mesh;
 pub mod net;
