@@ -201,7 +201,7 @@ fn boundaries() -> Vec<(&'static str, Cage)> {
                 .boundary(2),
         ),
         (
-            "boundary_none",
+            "boundary_omitted",
             Cage::sheet(4, 4)
                 .about("no surface at the boundary, but along an edge that is sharp")
                 .boundary(0)

@@ -5,7 +5,6 @@
 //! ([`Topology`]) can be walked without a case that fails. Everything behind the cage is
 //! total: it cannot meet bad input any more.
 
-pub(crate) mod channel;
 mod check;
 mod fault;
 pub mod isolation;
