@@ -52,6 +52,18 @@ impl ValenceRules {
         let subdominant = Subdominant::new(&rules);
         Some(Self { kind, rules, subdominant })
     }
+
+    pub(crate) fn kind(&self) -> SchemeKind {
+        self.kind
+    }
+
+    pub(crate) fn rules(&self) -> &Rules {
+        &self.rules
+    }
+
+    pub(crate) fn subdominant(&self) -> &Subdominant {
+        &self.subdominant
+    }
 }
 
 /// The surface around one extraordinary point.
@@ -281,9 +293,27 @@ impl Rings {
         Some([0, 1, 2, 3, 4].map(world))
     }
 
+    /// The rules, shared by all points of this valence.
+    pub(crate) fn rules(&self) -> &ValenceRules {
+        &self.rules
+    }
+
+    /// The net in front of ring `ring`, in the frame and scaled as that ring.
+    pub(crate) fn net(&self, ring: usize) -> Vec<Vector> {
+        match ring {
+            0 => self.first.clone(),
+            _ => self.with_ring(ring - 1, |r| r.next.clone()),
+        }
+    }
+
+    /// All patches of ring `ring` in the frame, scaled as that ring.
+    pub(crate) fn frame_patches(&self, ring: usize) -> Vec<Patch> {
+        self.with_ring(ring, |r| r.patches.clone())
+    }
+
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
     /// in (a,b).
-    fn in_world(&self, ring: usize, size: f64, jet: &Jet) -> SurfacePoint {
+    pub(crate) fn in_world(&self, ring: usize, size: f64, jet: &Jet) -> SurfacePoint {
         let lambda = self.lambda();
         let sigma = power(lambda, ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
@@ -308,7 +338,7 @@ impl Rings {
     }
 
     /// A patch of ring `ring` in world coordinates.
-    fn to_world(&self, ring: usize, patch: &Patch) -> Patch {
+    pub(crate) fn to_world(&self, ring: usize, patch: &Patch) -> Patch {
         let sigma = power(self.lambda(), ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
         let point = |&r: &Vector| add(self.center, self.frame.world(sigma, zeta, r));

@@ -12,7 +12,7 @@ mod spline;
 mod subdominant;
 mod tables;
 
-pub(crate) use guided::monomials as guide_monomials;
+pub(crate) use guided::{guide_monomials, sampled_guide};
 pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;
 
