@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use super::guide::{HomogeneousGuide, MAX_TOTAL_DEGREE};
 use super::scalar::ScalarJet;
+use crate::net::{CNET_NODES, CNet};
 use crate::rings::{power, ring_of, scaled_up};
 use crate::scheme::{RuleSet, Rules, SchemeKind, guide_monomials};
 
@@ -34,6 +35,7 @@ use crate::scheme::{RuleSet, Rules, SchemeKind, guide_monomials};
 /// ```
 #[derive(Debug)]
 pub struct Eigenfunctions {
+    kind: SchemeKind,
     rules: Rules,
     lambda: f64,
     guides: Vec<HomogeneousGuide>,
@@ -51,7 +53,7 @@ impl Eigenfunctions {
         let of_degree = |degree| HomogeneousGuide::all(valence, degree);
         let guides: Vec<_> = (0..=MAX_TOTAL_DEGREE).flat_map(of_degree).collect();
         let rings = guides.iter().map(|_| OnceLock::new()).collect();
-        Some(Self { rules, lambda, guides, rings })
+        Some(Self { kind, rules, lambda, guides, rings })
     }
 
     /// The valence.
@@ -167,9 +169,34 @@ impl Eigenfunctions {
         jet.scaled(self.factor(k, ring), power(2.0, ring) / size)
     }
 
+    /// The patch of the outermost ring that has (a,b).
+    pub(super) fn patch_at(&self, place: [f64; 2]) -> usize {
+        self.rules.patch_at(place)
+    }
+
+    /// Coefficient number `at` of a patch of sector 0 as weights of nodes; of those next to the
+    /// outer border all are nodes of the border.
+    pub(super) fn border_row(&self, which: usize, at: usize) -> &[(usize, f64)] {
+        &self.rules.patches[which].old[at]
+    }
+
+    /// The limit point if node `node` of a c-net is 1 and the others 0, and the nodes of all sectors
+    /// relative to it.
+    pub(super) fn net_of_node(&self, node: usize) -> (f64, Vec<f64>) {
+        let sectors = vec![[[0.0; 3]; CNET_NODES]; self.valence()];
+        let mut cnet = CNet { center: [0.0; 3], sectors };
+        match cnet.sectors.get_mut(node / CNET_NODES) {
+            Some(sector) => sector[node % CNET_NODES][0] = 1.0,
+            None => cnet.center[0] = 1.0,
+        }
+        let limit = self.kind.limit_point(&cnet);
+        let net = self.rules.guided_net(&cnet.relative_to(limit)).unwrap_or_default();
+        (limit[0], net.iter().map(|p| p[0]).collect())
+    }
+
     /// The nodes of function `k` in front of ring 0, in the x coordinate. For the constant, which
     /// nets leave out, all are zero.
-    fn net(&self, k: usize) -> Vec<[f64; 3]> {
+    pub(super) fn net(&self, k: usize) -> Vec<[f64; 3]> {
         let (rules, guide) = (&self.rules, &self.guides[k]);
         let monomials = guide_monomials();
         let border = rules.control_nodes_per_sector();
