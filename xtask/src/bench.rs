@@ -53,7 +53,7 @@ fn measure(name: &str, text: &[u8]) -> Result<(), Box<dyn std::error::Error>> {
     report("read and check", clock, cage.topology().faces().len(), "faces");
     let cage = Arc::new(cage);
     for scheme in SchemeKind::ALL {
-        let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+        let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
         let clock = Instant::now();
         let surface = Surface::build(cage.clone(), options)?;
         let points = surface.extraordinary_points().len();

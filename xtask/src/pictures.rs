@@ -63,7 +63,7 @@ fn cage(path: &str) -> Result<Arc<Cage>> {
 }
 
 fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface> {
-    Ok(Surface::build(cage.clone(), SurfaceOptions { scheme, rules: RuleSet::Generated })?)
+    Ok(Surface::build(cage.clone(), SurfaceOptions { scheme, ..SurfaceOptions::default() })?)
 }
 
 /// The demo object, as the first thing of the README.

@@ -147,7 +147,7 @@ fn read(path: &Path) -> Result<Arc<Cage>, Box<dyn Error>> {
 }
 
 fn build(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface, Box<dyn Error>> {
-    let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+    let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
     Ok(Surface::build(cage.clone(), options)?)
 }
 

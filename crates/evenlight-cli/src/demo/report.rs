@@ -95,7 +95,7 @@ fn spectra() -> Result<String, Failure> {
         (SchemeKind::EvolvingGuide, "Evolving-Guide"),
         (SchemeKind::CatmullClark, "Catmull-Clark"),
     ] {
-        let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+        let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
         let table = spectrum::table(&spectrum::spectra(options, &(3..=10), true)?);
         text += &format!("\n{name}:\n\n{}", table.markdown());
     }

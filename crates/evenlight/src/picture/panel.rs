@@ -205,7 +205,7 @@ mod tests {
 
     fn surface(mesh: Mesh) -> Surface {
         let options =
-            SurfaceOptions { scheme: SchemeKind::CatmullClark, rules: RuleSet::Generated };
+            SurfaceOptions { scheme: SchemeKind::CatmullClark, ..SurfaceOptions::default() };
         Surface::build(Cage::new(mesh).unwrap(), options).unwrap()
     }
 

@@ -45,7 +45,7 @@ pub fn all_cages() -> Vec<(String, Arc<Cage>)> {
 }
 
 pub fn options(scheme: SchemeKind) -> SurfaceOptions {
-    SurfaceOptions { scheme, rules: RuleSet::Generated }
+    SurfaceOptions { scheme, ..SurfaceOptions::default() }
 }
 
 pub fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Surface {
