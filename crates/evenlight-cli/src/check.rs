@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use clap::Args;
-use evenlight::io::obj::{self, LoadError, Notice};
+use evenlight::io::load::{LoadError, Notice};
+use evenlight::io::obj;
 use evenlight::mesh::isolation::{self, Extraordinary, Place};
 use evenlight::{Cage, FaceId, RuleSet, SchemeKind};
 use serde::Serialize;
@@ -107,8 +108,8 @@ impl Report {
                 Self { errors: faults.chain(more).collect(), ..Self::default() }
             }
             Err(LoadError::Check(refusal)) => Self {
-                errors: refusal.error.errors.iter().map(|e| e.describe(&refusal.source)).collect(),
-                warnings: refusal.unknown_tags.iter().map(ToString::to_string).collect(),
+                errors: refusal.error.errors.iter().map(|e| e.describe(&refusal.naming)).collect(),
+                warnings: refusal.notices.iter().map(ToString::to_string).collect(),
                 ..Self::default()
             },
         }

@@ -14,7 +14,8 @@ use std::panic;
 use std::path::Path;
 
 use evenlight::Mesh;
-use evenlight::io::obj::{self, LoadError};
+use evenlight::io::load::LoadError;
+use evenlight::io::obj;
 
 /// A small generator of pseudo-random numbers (SplitMix64): every case has its own seed.
 struct Random(u64);
@@ -119,7 +120,25 @@ const OTHERS: &[&str] = &[
     "vt",
     "vn 1",
     "vt 0 0",
+    "vt 1 0.5",
+    "vt 0.25 1 -3",
+    "vt 1e999 0",
     "vn 0 0 1",
+    "t crease 2/1/0 0 1 2.5",
+    "t crease 3/2/0 0 1 2 inf 3",
+    "t crease 4/1/0 0 1 4294967295 2 nan",
+    "t corner 2/1/0 0 7 10",
+    "t hole 1/0/0 0",
+    "t hole 0/0/0",
+    "t interpolateboundary 1/0/0 2",
+    "t facevaryinginterpolateboundary 1/0/0 9",
+    "t creasemethod 0/0/1 chaikin",
+    "t smoothtriangles 0/0/1 smooth",
+    "t vertexedit 1/3/2 0 1 1 1 add P",
+    "t crease 99999999999999999999/1/0",
+    "t x 0/0/1 \u{e9}",
+    "t",
+    "v 0 0 0 1 0 0.5",
     "\u{feff}v 1 2 3",
     "curv 0 1 \\",
     "f",
@@ -225,8 +244,12 @@ fn hold_to_the_contract(bytes: &[u8]) -> bool {
     match obj::read_cage(bytes) {
         Ok((cage, notices)) => {
             assert!(notices.iter().all(|notice| !notice.to_string().is_empty()));
-            let (positions, faces) = (cage.positions().to_vec(), cage.topology().faces().clone());
-            let mesh = Mesh { positions, faces, ..Mesh::default() };
+            let mesh = Mesh {
+                positions: cage.positions().to_vec(),
+                faces: cage.topology().faces().clone(),
+                tags: cage.tags().clone(),
+                primvars: cage.primvars().to_vec(),
+            };
             let mut text = Vec::new();
             obj::write(&mesh, &mut text).unwrap();
             assert_eq!(obj::read(&text).unwrap().mesh, mesh);

@@ -2,6 +2,7 @@
 
 pub mod bv;
 mod digits;
+pub mod load;
 pub mod obj;
 pub mod obj_out;
 pub mod ply;

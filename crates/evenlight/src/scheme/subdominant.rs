@@ -132,10 +132,6 @@ impl Subdominant {
     }
 
     /// The net of the characteristic map, in the plane z = 0.
-    #[cfg_attr(
-        not(any(test, feature = "spectrum")),
-        expect(dead_code, reason = "spectra and tests only")
-    )]
     pub(crate) fn characteristic_net(&self) -> Vec<Vector> {
         match &self.part {
             Part::Fourier { right, .. } => right.iter().map(|x| [x[0], x[1], 0.0]).collect(),

@@ -48,6 +48,8 @@ impl fmt::Display for LineFault {
 pub enum Element {
     /// A vertex.
     Vertex(u64),
+    /// A texture coordinate.
+    Texture(u64),
     /// A face.
     Face(u64),
 }
@@ -56,6 +58,7 @@ impl fmt::Display for Element {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Vertex(number) => write!(f, "vertex {number}"),
+            Self::Texture(number) => write!(f, "texture coordinate {number}"),
             Self::Face(number) => write!(f, "face {number}"),
         }
     }
@@ -92,13 +95,15 @@ pub enum Reason {
         /// The word.
         text: String,
     },
-    /// A vertex has fewer than three coordinates.
-    #[error("`{text}` has {found} of the 3 coordinates: add those that are missing")]
+    /// A vertex has fewer than three coordinates, or a texture coordinate none.
+    #[error("`{text}` has {found} of the {needed} coordinates: add those that are missing")]
     TooFewCoordinates {
         /// The line.
         text: String,
         /// How many there are, 0 to 2.
         found: usize,
+        /// How many there must be.
+        needed: usize,
     },
     /// A corner of a face has not the form of one.
     #[error("`{text}` is not a corner: correct it, as in 1, 1/2, 1//3 or 1/2/3")]
@@ -143,6 +148,61 @@ pub enum Reason {
         index: i64,
         /// How many come before it.
         count: usize,
+    },
+    /// A texture coordinate or colour is infinite or NaN.
+    #[error("`{text}` is not finite: correct it, as in 0.25")]
+    NotFinite {
+        /// The word.
+        text: String,
+    },
+    /// A line `t` does not have the form of a tag.
+    #[error(
+        "`t {name}` is not a tag: write `t NAME ints/floats/strings`, as in \
+         `t crease 2/1/0 4 5 2.5`, and then as many of each, or delete the line"
+    )]
+    TagForm {
+        /// The name of the tag.
+        name: String,
+    },
+    /// A tag has the wrong number of arguments.
+    #[error("the tag `{name}` takes {expected}: correct the counts and the arguments")]
+    TagArguments {
+        /// The name of the tag.
+        name: String,
+        /// What it takes.
+        expected: &'static str,
+    },
+    /// An argument of a tag is not what it takes.
+    #[error("`{text}` is no argument of the tag `{name}`: write {expected}")]
+    TagValue {
+        /// The name of the tag.
+        name: String,
+        /// The argument.
+        text: String,
+        /// What would be one.
+        expected: String,
+    },
+    /// A tag asks for a vertex or face that does not exist.
+    #[error(
+        "the tag asks for {what} {index}, but the file has {count}, and tags count from 0: \
+         correct the number"
+    )]
+    TagIndex {
+        /// "vertex" or "face".
+        what: &'static str,
+        /// The number, from 0.
+        index: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A tag edits the surface at a level of refinement.
+    #[error(
+        "`{name}` is a hierarchical edit, which is not supported: apply it in the program that \
+         wrote it, or delete the line"
+    )]
+    HierarchicalEdit {
+        /// The name of the tag.
+        name: String,
     },
     /// There is more than can be numbered with 32 bits.
     #[error("there are more than {limit} {what}: split the file")]
