@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use evenlight::io::obj;
-use evenlight::{Mesh, Point, QuadId, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Mesh, Point, QuadId, SchemeKind, Surface, SurfaceOptions};
 
 /// Cells around the torus, the short way and the long way.
 const CELLS: [usize; 2] = [25, 50];

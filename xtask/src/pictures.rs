@@ -12,7 +12,7 @@ use evenlight::io::obj;
 use evenlight::net::Quadratic;
 use evenlight::picture::{Picture, RenderOptions, Style, View, compare, render};
 use evenlight::point::{add, scale};
-use evenlight::{Cage, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 

@@ -20,7 +20,7 @@
 //! assert_eq!(cage.interior_valences(), [(3, 8)].into());
 //!
 //! // Build a surface over it.
-//! use evenlight::{RuleSet, SchemeKind, Surface, SurfaceOptions};
+//! use evenlight::{SchemeKind, Surface, SurfaceOptions};
 //!
 //! let options = SurfaceOptions { scheme: SchemeKind::Qas4, ..SurfaceOptions::default() };
 //! let surface = Surface::build(Arc::new(cage), options)?;

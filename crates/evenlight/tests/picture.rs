@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use evenlight::picture::{Picture, PictureError, RenderOptions, Style, View, compare, render};
-use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions, io};
+use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions, io};
 
 fn load(name: &str, scheme: SchemeKind) -> Surface {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes/obstacle").join(name);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
+use evenlight::{SchemeKind, SurfaceOptions};
 
 use super::steps::Step;
 use super::subject::{CloseUp, RINGS, Subject};

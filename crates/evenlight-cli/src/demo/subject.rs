@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use evenlight::point::{dot, norm, scale, sub};
 use evenlight::surface::{ExtraordinaryPoint, Sector};
-use evenlight::{Cage, Point, RuleSet, SchemeKind, Surface, SurfaceOptions, Vector};
+use evenlight::{Cage, Point, SchemeKind, Surface, SurfaceOptions, Vector};
 
 use serde_json::json;
 

@@ -36,7 +36,7 @@ pub struct RoundedGuide {
     /// coefficients of the two sector coordinates.
     pub characteristic: [[Vec<f64>; 2]; 3],
     /// For each of `exponents` (i, j) the coefficient of u^i v^j in the piece of sector 0, on the
-    /// 6n + 1 nodes of a c-net numbered by [`CNet::index`].
+    /// 6n + 1 nodes of a c-net numbered by [`CNet::index`] and relative to its c_0: p_00 is zero.
     pub powers: Vec<Vec<f64>>,
     /// The BB coefficients, number 7i + j, of the first coordinate of the cap's map.
     pub cap_map: Vec<f64>,
@@ -77,12 +77,14 @@ impl RoundedGuide {
     }
 }
 
-/// The coefficient of u^i v^j: C(5,i) C(5,j) times the differences of the BB coefficients.
+/// The coefficient of u^i v^j: C(5,i) C(5,j) times the differences of the BB coefficients, p_00
+/// being c_0.
 fn power(rows: &[Vec<Real>], valence: usize, (i, j): (usize, usize)) -> Vec<f64> {
     let weight = |node: usize| {
         let terms = (0..=i).flat_map(|k| (0..=j).map(move |l| (k, l))).map(|(k, l)| {
             let sign = if (i - k + j - l).is_multiple_of(2) { Real::ONE } else { -Real::ONE };
-            sign * choose(i, k) * choose(j, l) * rows[(DEGREE + 1) * k + l][node]
+            let p_kl = if k + l == 0 { Real::ZERO } else { rows[(DEGREE + 1) * k + l][node] };
+            sign * choose(i, k) * choose(j, l) * p_kl
         });
         (choose(DEGREE, i) * choose(DEGREE, j) * terms.sum()).to_f64()
     };

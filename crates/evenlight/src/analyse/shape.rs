@@ -92,7 +92,7 @@ pub struct PointShape {
 ///
 /// ```
 /// use evenlight::analyse::shape::shape;
-/// use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions};
+/// use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions};
 ///
 /// // The cube: eight points of valence 3, all alike.
 /// let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(|x| 2.0 * f64::from(x) - 1.0);

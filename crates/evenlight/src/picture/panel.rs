@@ -209,7 +209,7 @@ mod tests {
     use super::super::View;
     use super::*;
     use crate::mesh::{Cage, Mesh};
-    use crate::scheme::{RuleSet, SchemeKind};
+    use crate::scheme::SchemeKind;
     use crate::surface::SurfaceOptions;
 
     fn surface(mesh: Mesh) -> Surface {

@@ -11,6 +11,9 @@
 //!
 //! Ring l of a sector then covers sigma^(l+1) < max(a,b) <= sigma^l.
 
+use std::fmt;
+use std::str::FromStr;
+
 use super::{RuleSet, SchemeKind};
 
 /// How fast rings contract. Guided schemes can be made with any contraction, the others have that
@@ -40,10 +43,40 @@ impl Contraction {
         }
     }
 
-    /// Whether lambda is between the limits.
-    fn is_valid(self) -> bool {
+    /// Itself if lambda is between the limits.
+    fn checked(self) -> Result<Self, ContractionError> {
         let [low, high] = Self::LIMITS;
-        self.lambda().is_none_or(|lambda| low < lambda && lambda < high)
+        match self {
+            Self::Lambda(lambda) if !(low < lambda && lambda < high) => {
+                Err(ContractionError::OutOfRange { lambda })
+            }
+            _ => Ok(self),
+        }
+    }
+}
+
+/// As on the command line: cc, half or the number.
+impl fmt::Display for Contraction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CatmullClark => f.write_str("cc"),
+            Self::Half => f.write_str("half"),
+            Self::Lambda(lambda) => write!(f, "{lambda}"),
+        }
+    }
+}
+
+impl FromStr for Contraction {
+    type Err = ContractionError;
+
+    /// Reads what [`fmt::Display`] writes, and checks the limits.
+    fn from_str(text: &str) -> Result<Self, ContractionError> {
+        let contraction = match text {
+            "cc" => Self::CatmullClark,
+            "half" => Self::Half,
+            _ => Self::Lambda(text.parse().map_err(|_| ContractionError::Unknown)?),
+        };
+        contraction.checked()
     }
 }
 
@@ -81,6 +114,9 @@ pub enum ContractionError {
         /// The lambda that was asked for.
         lambda: f64,
     },
+    /// A text that names no contraction.
+    #[error("a contraction is 'cc', 'half' or a number")]
+    Unknown,
     /// Only guided schemes have others than that of Catmull-Clark subdivision.
     #[error(
         "scheme {} contracts like Catmull-Clark subdivision (cc) only; \
@@ -107,9 +143,8 @@ impl SchemeKind {
     /// If lambda is out of range, if the scheme has one contraction only, or if the library was
     /// built without the feature `derive`.
     pub fn check_contraction(self, contraction: Contraction) -> Result<(), ContractionError> {
-        let Some(lambda) = contraction.lambda() else { return Ok(()) };
-        if !contraction.is_valid() {
-            return Err(ContractionError::OutOfRange { lambda });
+        if contraction.checked()? == Contraction::CatmullClark {
+            return Ok(());
         }
         if self.guided_degree().is_none() {
             return Err(ContractionError::Fixed { scheme: self });
@@ -141,6 +176,11 @@ mod tests {
             let is_guided = scheme.guided_degree().is_some();
             assert_eq!(check(scheme, 0.31).is_ok(), is_guided && cfg!(feature = "derive"));
         }
+        for text in ["cc", "half", "0.45"] {
+            assert_eq!(text.parse::<Contraction>().map(|c| c.to_string()), Ok(text.to_owned()));
+        }
+        assert_eq!("slow".parse::<Contraction>(), Err(ContractionError::Unknown));
+        assert!("0.8".parse::<Contraction>().is_err());
         let message = check(SchemeKind::Qas4, 0.5).unwrap_err().to_string();
         assert!(message.contains("qas4") && message.contains("guided3 to guided6"), "{message}");
     }

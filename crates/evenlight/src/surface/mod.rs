@@ -313,7 +313,12 @@ impl Surface {
                 out.extend(all.map(|(ring, which)| PatchPlace {
                     role: Role::Ring(ring + 1),
                     quad: square.quad,
-                    domain: square.part(ring_domain(corner, sigma, ring, around.patch_domain(which))),
+                    domain: square.part(ring_domain(
+                        corner,
+                        sigma,
+                        ring,
+                        around.patch_domain(which),
+                    )),
                     point: Some(point),
                     sector: Some(sector),
                     source: Source::Ring(RingPatch { point, sector, ring, which, square, corner }),

@@ -234,9 +234,8 @@ impl Ring {
     /// net, continued.
     fn border_of_cnet(&self, n: usize) -> Vec<Vec<f64>> {
         let width = (1.0 - self.sigma) / self.sigma;
-        let across = matrix(4, |b| {
-            bb_at_start(self.sampled, &in_units(width, &taylor_at_end(b, LAYERS)))
-        });
+        let across =
+            matrix(4, |b| bb_at_start(self.sampled, &in_units(width, &taylor_at_end(b, LAYERS))));
         let along = matrix(4, |b| raised(b, self.sampled));
         let mut rows = vec![vec![0.0; CNET_NODES * n + 1]; self.num_border()];
         for (layer, k) in (0..LAYERS).flat_map(|m| (0..self.order()).map(move |k| (m, k))) {

@@ -4,6 +4,15 @@
 //! characteristic ring is that of the scheme `cc`. All others are derived when they are asked for,
 //! with some 30 digits, by the crate that wrote the tables (feature `derive`).
 
+#[cfg(feature = "derive")]
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+#[cfg(feature = "derive")]
+use evenlight_guide::guided::rounded::RoundedGuide;
+
 use super::monomials;
 use crate::angle::{cosine, sine};
 use crate::net::CNET_NODES;
@@ -48,7 +57,9 @@ impl Model {
             Contraction::CatmullClark => tables::guide_weights(n),
             _ => None,
         };
-        tabulated.map(|weights| Self::tabulated(n, weights)).or_else(|| Self::derived(n, contraction))
+        tabulated
+            .map(|weights| Self::tabulated(n, weights))
+            .or_else(|| Self::derived(n, contraction))
     }
 
     fn tabulated(n: usize, weights: GuideWeights) -> Self {
@@ -62,13 +73,12 @@ impl Model {
 
     #[cfg(feature = "derive")]
     fn derived(n: usize, contraction: Contraction) -> Option<Self> {
-        use evenlight_guide::guided::rounded::RoundedGuide;
-        let guide = RoundedGuide::new(n, contraction.lambda(), GUIDE_DEGREE, &monomials())?;
+        let guide = derived_guide(n, contraction)?;
         Some(Self {
             sigma: guide.sigma,
             lambda: guide.lambda,
-            characteristic: guide.characteristic,
-            guide: guide.powers,
+            characteristic: guide.characteristic.clone(),
+            guide: guide.powers.clone(),
         })
     }
 
@@ -76,6 +86,34 @@ impl Model {
     fn derived(_: usize, _: Contraction) -> Option<Self> {
         None
     }
+}
+
+/// The guides that were derived last: each takes some tenths of a second.
+#[cfg(feature = "derive")]
+static DERIVED: Mutex<BTreeMap<(usize, Option<u64>), Arc<RoundedGuide>>> =
+    Mutex::new(BTreeMap::new());
+
+/// More guides than this, of 10 to 60 kB each, are not kept.
+#[cfg(feature = "derive")]
+const MOST_DERIVED: usize = 256;
+
+/// A derived guide; `None` if there is none.
+#[cfg(feature = "derive")]
+fn derived_guide(n: usize, contraction: Contraction) -> Option<Arc<RoundedGuide>> {
+    let lambda = contraction.lambda();
+    let key = (n, lambda.map(f64::to_bits));
+    let known = || DERIVED.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(guide) = known().get(&key) {
+        return Some(guide.clone());
+    }
+    // Not under the lock: threads may derive different guides at once.
+    let guide = Arc::new(RoundedGuide::new(n, lambda, GUIDE_DEGREE, &monomials())?);
+    let mut all = known();
+    if all.len() >= MOST_DERIVED {
+        all.clear();
+    }
+    all.insert(key, guide.clone());
+    Some(guide)
 }
 
 /// The rows of the coefficients a_ij on a c-net: C(5,i) C(5,j) times the differences of p_ij,

@@ -275,8 +275,7 @@ mod tests {
             let k = knots.iter().filter(|&&knot| knot < t).count();
             let lines = lines(knots);
             let (t, d) = ((t - lines[k]) / (lines[k + 1] - lines[k]), pieces[k].len() - 1);
-            let basis =
-                |i: usize| choose(d, i) * t.powi(i as i32) * (1.0 - t).powi((d - i) as i32);
+            let basis = |i: usize| choose(d, i) * t.powi(i as i32) * (1.0 - t).powi((d - i) as i32);
             (0..=d).map(|i| basis(i) * pieces[k][i]).sum::<f64>()
         };
         for (degree, sigma) in [3, 4, 5].into_iter().flat_map(|d| SIGMAS.map(move |s| (d, s))) {
