@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   bytes --Format::read--> Loaded { mesh, naming, notices } --check--> Cage, notices
-//!                              ReadError                        LoadError
+//!               |                                                |
+//!               +------------------> LoadError <-----------------+
 //! ```
 //!
 //! A file is read strictly, and then its mesh is checked. What a message calls vertices and
@@ -11,7 +12,57 @@
 use std::fmt;
 
 use super::obj::{self, UnknownTag};
+use super::ply;
 use crate::mesh::{Cage, CheckError, FaceId, LibraryNumbers, Mesh, Names, VertexId, Warning};
+
+/// The kinds of files that hold cages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ.
+    Obj,
+    /// PLY, ascii or binary.
+    Ply,
+}
+
+impl Format {
+    /// The kind of file that ends in `.extension`, in small or capital letters.
+    pub fn from_extension(extension: &str) -> Option<Self> {
+        match extension.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            _ => None,
+        }
+    }
+
+    /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.
+    pub fn of_content(bytes: &[u8]) -> Self {
+        match bytes {
+            [b'p', b'l', b'y', b'\n' | b'\r' | b' ', ..] => Self::Ply,
+            _ => Self::Obj,
+        }
+    }
+
+    /// Reads `bytes` as a file of this kind.
+    ///
+    /// # Errors
+    ///
+    /// Those of the reader.
+    ///
+    /// ```
+    /// use evenlight::io::load::Format;
+    ///
+    /// let bytes = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    /// let (cage, notices) = Format::of_content(bytes).read(bytes)?.check()?;
+    /// assert!(cage.num_faces() == 1 && notices.is_empty());
+    /// # Ok::<(), evenlight::io::load::LoadError>(())
+    /// ```
+    pub fn read(self, bytes: &[u8]) -> Result<Loaded, LoadError> {
+        Ok(match self {
+            Self::Obj => obj::read(bytes)?.into(),
+            Self::Ply => ply::read(bytes)?.into(),
+        })
+    }
+}
 
 /// A mesh as read, not yet checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,12 +157,41 @@ impl fmt::Display for Notice {
 /// Why a file gives no cage.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LoadError {
-    /// It cannot be read.
+    /// It is no OBJ file.
     #[error(transparent)]
-    Read(#[from] obj::ReadError),
+    Obj(#[from] obj::ReadError),
+    /// It is no PLY file.
+    #[error(transparent)]
+    Ply(#[from] ply::ReadError),
     /// Its mesh cannot be used.
     #[error("{0}")]
     Check(Box<Refusal>),
+}
+
+impl LoadError {
+    /// Every fault in a sentence of its own.
+    pub fn faults(&self) -> Vec<String> {
+        match self {
+            Self::Obj(error) => {
+                let more = (error.num_more > 0)
+                    .then(|| format!("and {} more lines that cannot be read", error.num_more));
+                error.faults.iter().map(ToString::to_string).chain(more).collect()
+            }
+            Self::Ply(error) => vec![error.to_string()],
+            Self::Check(refusal) => {
+                let faults = refusal.error.errors.iter();
+                faults.map(|fault| fault.describe(&refusal.naming)).collect()
+            }
+        }
+    }
+
+    /// What was ignored or completed before the fault was found.
+    pub fn notices(&self) -> &[Notice] {
+        match self {
+            Self::Check(refusal) => &refusal.notices,
+            Self::Obj(_) | Self::Ply(_) => &[],
+        }
+    }
 }
 
 /// The faults of a mesh and what the file calls its parts.
