@@ -189,7 +189,7 @@ impl Rules {
     }
 
     /// Where rings are cut, if not in halves.
-    fn cuts(&self) -> Option<&Cuts> {
+    pub(crate) fn cuts(&self) -> Option<&Cuts> {
         self.guide.as_ref()?.cuts.as_ref()
     }
 
