@@ -5,18 +5,27 @@
 use evenlight::basis::{FunctionKind, RefinableSpace, ScalarJet};
 use evenlight::net::CNet;
 use evenlight::rings::Rings;
-use evenlight::{RuleSet, SchemeKind};
+use evenlight::{Contraction, RuleSet, SchemeKind};
 use serde_json::Value;
 
 const SCHEMES: [SchemeKind; 2] = [SchemeKind::Guided5, SchemeKind::Guided6];
 
+/// The spaces of both degrees and, where rules can be derived, both contractions.
 fn spaces(valences: &[usize], rings: usize) -> Vec<RefinableSpace> {
-    let of_valence = |&n: &usize| SCHEMES.map(|kind| RefinableSpace::new(kind, n, rings).unwrap());
-    valences.iter().flat_map(of_valence).collect()
+    let contractions = [Contraction::CatmullClark, Contraction::Half];
+    let can_derive = SCHEMES[0].check_contraction(Contraction::Half).is_ok();
+    let known = &contractions[..if can_derive { 2 } else { 1 }];
+    let mut spaces = Vec::new();
+    for (&n, &contraction) in valences.iter().flat_map(|n| known.iter().map(move |c| (n, c))) {
+        let of_kind = |kind| RefinableSpace::with_contraction(kind, contraction, n, rings).unwrap();
+        spaces.extend(SCHEMES.map(of_kind));
+    }
+    spaces
 }
 
 fn name(space: &RefinableSpace) -> String {
-    format!("bi-{} n = {} m = {}", space.degree(), space.valence(), space.num_rings())
+    let [sigma, m] = [space.eigenfunctions().sigma(), space.num_rings() as f64];
+    format!("bi-{} n = {} sigma = {sigma} m = {m}", space.degree(), space.valence())
 }
 
 /// Numbers without a pattern, from -1 to 1.
@@ -35,15 +44,7 @@ fn jet_on(space: &RefinableSpace, coefs: &[f64], which: usize, [a, b]: [f64; 2])
     let [[a0, a1], [b0, b1]] = space.eigenfunctions().patch_domain(which);
     let (u, v) = ((a - a0) / (a1 - a0), (b - b0) / (b1 - b0));
     let jet = ScalarJet::of_patch(space.degree(), coefs, u, v);
-    let (wu, wv) = (1.0 / (a1 - a0), 1.0 / (b1 - b0));
-    ScalarJet {
-        value: jet.value,
-        du: wu * jet.du,
-        dv: wv * jet.dv,
-        duu: wu * wu * jet.duu,
-        duv: wu * wv * jet.duv,
-        dvv: wv * wv * jet.dvv,
-    }
+    jet.scaled(1.0, [1.0 / (a1 - a0), 1.0 / (b1 - b0)])
 }
 
 fn largest_difference(a: ScalarJet, b: ScalarJet) -> f64 {
@@ -129,7 +130,7 @@ type Term<'a> = (&'a dyn Fn(usize) -> usize, &'a Vec<f64>, f64);
 #[test]
 fn a_ring_has_no_other_splines() {
     for space in spaces(&[3, 5], 1) {
-        let (n, d) = (space.valence(), space.degree());
+        let (n, d, sigma) = (space.valence(), space.degree(), space.eigenfunctions().sigma());
         let order = d + 1;
         let number = |sector: usize, square: usize, i: usize, j: usize| {
             ((sector * 3 + square) * order + i) * order + j
@@ -148,14 +149,16 @@ fn a_ring_has_no_other_splines() {
                 let next = (s + 1) % n;
                 let sign = if o == 1 { -1.0 } else { 1.0 };
                 let (one, two) = (&end[o], &start[o]);
+                // Patches are sigma and 1 - sigma wide.
+                let [low, high] = [sigma, 1.0 - sigma].map(|width| width.powi(-(o as i32)));
                 // Square 1 below 0, square 2 left of 0, square 2 before square 1 of the next sector.
                 condition(&[
-                    (&|j| number(s, 1, k, j), one, 1.0),
-                    (&|j| number(s, 0, k, j), two, -1.0),
+                    (&|j| number(s, 1, k, j), one, low),
+                    (&|j| number(s, 0, k, j), two, -high),
                 ]);
                 condition(&[
-                    (&|i| number(s, 2, i, k), one, 1.0),
-                    (&|i| number(s, 0, i, k), two, -1.0),
+                    (&|i| number(s, 2, i, k), one, low),
+                    (&|i| number(s, 0, i, k), two, -high),
                 ]);
                 condition(&[
                     (&|i| number(s, 2, i, k), two, 1.0),
@@ -226,7 +229,7 @@ fn every_function_of_a_space_is_in_the_next() {
 #[test]
 fn functions_are_c2() {
     for space in spaces(&[3, 5, 6, 8], 2) {
-        let n = space.valence();
+        let (n, sigma) = (space.valence(), space.eigenfunctions().sigma());
         let values = scattered(space.dim());
         for ring in 0..5 {
             let patch = |s: usize, which: usize| space.coefs_of_sum(&values, ring, s % n, which);
@@ -236,24 +239,25 @@ fn functions_are_c2() {
                 let inside = [0, 1, 2].map(|which| space.coefs_of_sum(&values, ring + 1, s, which));
                 let size = squares.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
                 for t in [0.0, 0.21, 0.5, 0.83, 1.0] {
-                    let (h, a) = (0.5 * t, 0.5 + 0.5 * t);
+                    let (h, a) = (sigma * t, sigma + (1.0 - sigma) * t);
                     let on = |which: usize, place: [f64; 2]| {
                         jet_on(&space, &squares[which], which, place)
                     };
-                    // Ring l+1 in its own units, twice as large.
+                    // Ring l+1 in its own units.
                     let in_hole = |which: usize, [a, b]: [f64; 2]| {
-                        jet_on(&space, &inside[which], which, [2.0 * a, 2.0 * b]).scaled(1.0, 2.0)
+                        jet_on(&space, &inside[which], which, [a / sigma, b / sigma])
+                            .scaled(1.0, [1.0 / sigma; 2])
                     };
-                    let part = |x: f64, low: usize| if x < 0.25 { low } else { 0 };
+                    let part = |x: f64, low: usize| if x < sigma * sigma { low } else { 0 };
                     let jumps = [
-                        largest_difference(on(1, [a, 0.5]), on(0, [a, 0.5])),
-                        largest_difference(on(2, [0.5, a]), on(0, [0.5, a])),
+                        largest_difference(on(1, [a, sigma]), on(0, [a, sigma])),
+                        largest_difference(on(2, [sigma, a]), on(0, [sigma, a])),
                         largest_difference(
                             beyond_line(on(2, [0.0, a])),
                             jet_on(&space, &next, 1, [a, 0.0]),
                         ),
-                        largest_difference(on(1, [0.5, h]), in_hole(part(h, 1), [0.5, h])),
-                        largest_difference(on(2, [h, 0.5]), in_hole(part(h, 2), [h, 0.5])),
+                        largest_difference(on(1, [sigma, h]), in_hole(part(h, 1), [sigma, h])),
+                        largest_difference(on(2, [h, sigma]), in_hole(part(h, 2), [h, sigma])),
                     ];
                     let worst = jumps.iter().fold(0.0, |m: f64, x| m.max(*x));
                     // Second derivatives are some hundred times as large as the coefficients.
@@ -399,12 +403,13 @@ fn functions_live_where_their_support_says() {
 #[test]
 fn elements_and_evaluators_agree() {
     for space in spaces(&[5], 1) {
+        let sigma = space.eigenfunctions().sigma();
         for (s, a, b) in [(0, 0.7, 0.9), (1, 0.9, 0.2), (4, 0.1, 0.26), (2, 0.1, 0.02)] {
             let (mut ring, mut place): (usize, [f64; 2]) = (0, [a, b]);
-            while place[0].max(place[1]) <= 0.5 {
-                (ring, place) = (ring + 1, place.map(|x| 2.0 * x));
+            while place[0].max(place[1]) <= sigma {
+                (ring, place) = (ring + 1, place.map(|x| x / sigma));
             }
-            let which = match place.map(|x| x > 0.5) {
+            let which = match place.map(|x| x > sigma) {
                 [true, true] => 0,
                 [true, false] => 1,
                 _ => 2,
@@ -421,7 +426,7 @@ fn elements_and_evaluators_agree() {
                 let jet = expected
                     .next_if(|(f, _)| **f == k)
                     .map_or_else(ScalarJet::default, |(_, jet)| jet);
-                let jet = jet.scaled(1.0, 1.0 / (a1 - a0));
+                let jet = jet.scaled(1.0, [1.0 / (a1 - a0), 1.0 / (b1 - b0)]);
                 assert!(largest_difference(found, jet) < 1e-12 * (1.0 + jet.duu.abs()), "{k}");
                 sum.value += value * found.value;
                 sum.duv += value * found.duv;

@@ -17,7 +17,7 @@ use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 ///   f(a/2, b/2) = lambda^s f(a,b),    in each sector.
 /// ```
 ///
-/// So all rings are known from the first one. They are C2 everywhere but at the centre. Every guided
+/// (With other contractions than Catmull-Clark's sigma takes the place of 1/2.) So all rings are known from the first one. They are C2 everywhere but at the centre. Every guided
 /// surface is a sum of eigenfunctions from ring 1 on (ring 0 has the border of the surrounding
 /// surface instead of theirs). Function 0 is the constant 1, functions 1 and 2 are the
 /// characteristic map, the even one along the diagonal of sector 0.
@@ -74,6 +74,12 @@ impl Eigenfunctions {
     /// The subdominant eigenvalue.
     pub fn lambda(&self) -> f64 {
         self.lambda
+    }
+
+    /// The factor by which the parameters of the rings shrink: 1/2 but for contractions other than
+    /// Catmull-Clark's.
+    pub fn sigma(&self) -> f64 {
+        self.rules.sigma()
     }
 
     /// The number of functions, 17n + n* + 6.

@@ -9,7 +9,7 @@ use super::scalar::ScalarJet;
 use super::sparse::SparseMatrix;
 use crate::net::CNET_NODES;
 use crate::rings::{power, ring_of, scaled_up};
-use crate::scheme::{SchemeKind, guide_monomials};
+use crate::scheme::{Contraction, SchemeKind, guide_monomials};
 
 /// A space V_m of C2 functions around one extraordinary point \[KP18-Guided, Section 6.4\]: free
 /// splines on rings 0 to m-1, a free guide for all rings from m on.
@@ -139,9 +139,20 @@ impl RefinableSpace {
     /// The splines of `guided3` and `guided4` are made of bi-5 rings, ring by ring: they have no
     /// functions of their own.
     pub fn new(kind: SchemeKind, valence: usize, rings: usize) -> Option<Self> {
+        Self::with_contraction(kind, Contraction::CatmullClark, valence, rings)
+    }
+
+    /// The same space with another contraction: ring l covers sigma^(l+1) < max(a,b) <= sigma^l.
+    /// `None` also if the scheme has no such contraction.
+    pub fn with_contraction(
+        kind: SchemeKind,
+        contraction: Contraction,
+        valence: usize,
+        rings: usize,
+    ) -> Option<Self> {
         let degree = kind.guided_degree().filter(|&degree| degree >= 5)?;
-        let eigen = Eigenfunctions::new(kind, valence)?;
-        let layout = Layout::new(degree, 0.5);
+        let eigen = Eigenfunctions::with_contraction(kind, contraction, valence)?;
+        let layout = Layout::new(degree, eigen.sigma());
         let patches = [0, 1, 2].map(|square| sources(&eigen, layout, square));
         Some(Self { common: Arc::new(Common { eigen, layout, patches }), rings })
     }
@@ -312,7 +323,7 @@ impl RefinableSpace {
 
     /// The part of a sector that a patch covers.
     fn domain(&self, ring: usize, which: usize) -> [[f64; 2]; 2] {
-        let size = power(0.5, ring);
+        let size = power(self.eigenfunctions().sigma(), ring);
         self.eigenfunctions().patch_domain(which).map(|side| side.map(|x| size * x))
     }
 
@@ -389,13 +400,16 @@ impl RefinableSpace {
                 dvv: rest,
             };
         }
-        let ring = ring_of(a.max(b));
-        let place = [a, b].map(|x| scaled_up(x, ring));
+        let sigma = self.eigenfunctions().sigma();
+        let ring = ring_of(a.max(b), sigma);
+        let place = [a, b].map(|x| scaled_up(x, ring, sigma));
         let which = self.eigenfunctions().patch_at(place);
         let domain = self.eigenfunctions().patch_domain(which);
-        let [u, v] = [0, 1].map(|k| (place[k] - domain[k][0]) / (domain[k][1] - domain[k][0]));
+        let size = domain.map(|[start, end]| end - start);
+        let [u, v] = [0, 1].map(|k| (place[k] - domain[k][0]) / size[k]);
         let jet = ScalarJet::of_patch(self.degree(), &coefs(ring, which), u, v);
-        jet.scaled(1.0, power(2.0, ring) / (domain[0][1] - domain[0][0]))
+        let speed = power(1.0 / sigma, ring);
+        jet.scaled(1.0, size.map(|size| speed / size))
     }
 
     /// The matrix from the values of functions of V_m to those of V_(m+1): row k has what function
