@@ -174,12 +174,13 @@ pub fn view_at(surface: &Surface, vertex: VertexId) -> Option<View> {
 
 /// The surfaces to show, at least one.
 fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
-    let SurfaceArgs { cage: source, scheme, q, .. } = &args.surface;
+    let SurfaceArgs { cage, scheme, q, .. } = &args.surface;
+    let source = &cage.source;
     let options = args.surface.options();
     let single = [*scheme];
     let schemes = if args.compare.is_empty() { &single[..] } else { &args.compare };
     let edits = q.read(source, schemes)?;
-    let cage = input::read_cage(source)?;
+    let cage = input::read_cage(cage)?;
     let build = |&scheme| -> Result<Surface, Failure> {
         let options = SurfaceOptions { scheme, ..options };
         let mut surface = input::build(Arc::clone(&cage), options, source)?;
