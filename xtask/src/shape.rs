@@ -339,8 +339,14 @@ fn short(x: f64) -> String {
 // ------------------------------------------------------------------------ rings
 
 /// The schemes whose rings are shown.
-const RING_SCHEMES: [SchemeKind; 4] =
-    [SchemeKind::CatmullClark, SchemeKind::EvolvingGuide, SchemeKind::Qas3, SchemeKind::Qas4];
+const RING_SCHEMES: [SchemeKind; 6] = [
+    SchemeKind::CatmullClark,
+    SchemeKind::EvolvingGuide,
+    SchemeKind::Qas3,
+    SchemeKind::Qas4,
+    SchemeKind::Guided5,
+    SchemeKind::Guided6,
+];
 
 /// The cages and rings of the table in the documentation.
 const RING_CAGES: [&str; 5] =

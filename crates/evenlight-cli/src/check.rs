@@ -4,19 +4,19 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use clap::Args;
-use evenlight::io::obj::{self, LoadError, Notice};
+use evenlight::io::load::{LoadError, Loaded, Notice};
 use evenlight::mesh::isolation::{self, Extraordinary, Place};
 use evenlight::{Cage, FaceId, RuleSet, SchemeKind};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
-use crate::input::{Source, omitted_text};
+use crate::input::{self, Source, omitted_text};
 use crate::output::Target;
 
 /// Arguments of `evenlight check`.
 #[derive(Args, Debug)]
 pub struct CheckArgs {
-    /// The cage: an OBJ file with quads and n-gons, counter-clockwise; `-` for stdin
+    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
     cage: Source,
 
     /// JSON instead of text; also for a cage that is refused, with its faults in `errors`
@@ -34,7 +34,7 @@ pub struct CheckArgs {
 ///
 /// All faults of the cage, if it cannot be used.
 pub fn run(args: &CheckArgs) -> Result<(), Failure> {
-    let result = obj::read_cage(&args.cage.read()?);
+    let result = input::read_mesh(&args.cage)?.and_then(Loaded::check);
     let report = Report::of(&result);
     if args.json {
         args.output.write_json(&report)?;
@@ -100,15 +100,9 @@ impl Report {
     pub fn of(result: &Result<(Cage, Vec<Notice>), LoadError>) -> Self {
         match result {
             Ok((cage, notices)) => Self::of_cage(cage, notices),
-            Err(LoadError::Read(error)) => {
-                let more = (error.num_more > 0)
-                    .then(|| format!("and {} more lines that cannot be read", error.num_more));
-                let faults = error.faults.iter().map(ToString::to_string);
-                Self { errors: faults.chain(more).collect(), ..Self::default() }
-            }
-            Err(LoadError::Check(refusal)) => Self {
-                errors: refusal.error.errors.iter().map(|e| e.describe(&refusal.source)).collect(),
-                warnings: refusal.unknown_tags.iter().map(ToString::to_string).collect(),
+            Err(error) => Self {
+                errors: error.faults(),
+                warnings: error.notices().iter().map(ToString::to_string).collect(),
                 ..Self::default()
             },
         }

@@ -176,8 +176,8 @@ pub fn render(surface: &Surface, options: &RenderOptions) -> Result<Picture, Pic
     compare(&[(name, surface)], options)
 }
 
-/// Draws surfaces side by side with their names: the same camera (fitted to the first one), the
-/// same range of curvature (from all of them) and one colour bar.
+/// Draws surfaces side by side, many of them in several rows, with their names: the same camera
+/// (fitted to the first one), the same range of curvature (from all of them) and one colour bar.
 ///
 /// # Errors
 ///
@@ -190,20 +190,31 @@ pub fn compare(
     let scale = options.text_scale();
     let legend_width = legend::width(options.style, options.size, scale);
     let too_many = PictureError::Panels { panels: surfaces.len(), width: options.size[0] };
-    let width = (options.size[0] - legend_width).checked_div(surfaces.len()).filter(|&w| w > 0);
-    let panel_size = [width.ok_or(too_many)?, options.size[1]];
+    let room = [options.size[0] - legend_width, options.size[1]];
+    let (columns, panel_size) = panel_grid(surfaces.len(), room).ok_or(too_many)?;
     let camera = fitted_camera(surfaces, options, panel_size);
     let range = options.range.unwrap_or_else(|| typical_range(surfaces, &camera, options.style));
 
     let mut picture = Picture::new(options.size, |y| options.background(y));
     for (k, &(name, surface)) in surfaces.iter().enumerate() {
-        let left = k * panel_size[0];
+        let origin = [k % columns * panel_size[0], k / columns * panel_size[1]];
         let panel = Panel::new(surface, camera.clone());
-        panel.draw(&mut picture, left, options, range);
-        annotate(&mut picture, left, panel_size, name, panel.is_empty(), scale);
+        panel.draw(&mut picture, origin, options, range);
+        annotate(&mut picture, origin, panel_size, name, panel.is_empty(), scale);
     }
     legend::draw(&mut picture, options.style, range, scale);
     Ok(picture)
+}
+
+/// How many columns of panels, and their size: one more row wherever the shorter side of the panels
+/// gains a quarter or more by it. `None` if there are no panels or no room.
+fn panel_grid(count: usize, room: [usize; 2]) -> Option<(usize, [usize; 2])> {
+    let size = |rows: usize| [room[0] / count.div_ceil(rows), room[1] / rows];
+    let shorter = |rows: usize| size(rows)[0].min(size(rows)[1]);
+    let rows = (1..=count)
+        .reduce(|best, rows| if 4 * shorter(rows) >= 5 * shorter(best) { rows } else { best })?;
+    let size = size(rows);
+    size.iter().all(|&side| side > 0).then_some((count.div_ceil(rows), size))
 }
 
 /// The camera for the first surface that has points.
@@ -217,29 +228,34 @@ fn fitted_camera(
     Camera::fit(&options.view, &points, size)
 }
 
-/// Writes the name of a panel on a plate in its corner, a line to its left unless it is the
-/// first, and a note if it is empty.
+/// Writes the name of a panel on a plate in its corner, lines to its left and above it unless the
+/// picture ends there, and a note if it is empty.
 fn annotate(
     picture: &mut Picture,
-    left: usize,
+    [left, top]: [usize; 2],
     size: [usize; 2],
     name: &str,
     empty: bool,
     scale: usize,
 ) {
     if left > 0 {
-        picture.fill([left, 0], [scale, size[1]], SEPARATOR);
+        picture.fill([left, top], [scale, size[1]], SEPARATOR);
+    }
+    if top > 0 {
+        picture.fill([left, top], [size[0], scale], SEPARATOR);
     }
     if !name.is_empty() {
         let width = FONT_9X18_BOLD.character_size.width as usize * name.chars().count();
-        picture.fill([left + 8 * scale, 8 * scale], [(width + 12) * scale, 24 * scale], PLATE);
+        let corner = [left + 8 * scale, top + 8 * scale];
+        picture.fill(corner, [(width + 12) * scale, 24 * scale], PLATE);
     }
     let mut write = |text: &str, at: [usize; 2], alignment: Alignment| {
         picture.write(&Label { text, at, alignment, font: &FONT_9X18_BOLD, color: INK, scale });
     };
-    write(name, [left + 14 * scale, 20 * scale], Alignment::Left);
+    write(name, [left + 14 * scale, top + 20 * scale], Alignment::Left);
     if empty {
-        write("no surface to show", [left + size[0] / 2, size[1] / 2], Alignment::Center);
+        let middle = [left + size[0] / 2, top + size[1] / 2];
+        write("no surface to show", middle, Alignment::Center);
     }
 }
 
@@ -315,6 +331,15 @@ mod tests {
     fn no_surface_is_refused() {
         let none = compare(&[], &RenderOptions::default());
         assert_eq!(none, Err(PictureError::Panels { panels: 0, width: 900 }));
+    }
+
+    #[test]
+    fn panels_stand_in_a_row_until_a_second_row_makes_them_larger() {
+        assert_eq!(panel_grid(3, [1200, 900]), Some((3, [400, 900])));
+        assert_eq!(panel_grid(4, [1200, 900]), Some((2, [600, 450])));
+        assert_eq!(panel_grid(6, [1800, 1100]), Some((3, [600, 550])));
+        assert_eq!(panel_grid(3, [1500, 500]), Some((3, [500, 500])));
+        assert_eq!(panel_grid(2, [1, 1]), None);
     }
 
     #[test]

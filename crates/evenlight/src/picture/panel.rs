@@ -82,18 +82,24 @@ impl<'a> Panel<'a> {
         self.cells.is_empty()
     }
 
-    /// Draws the surface in the columns from `left` of `picture`.
-    pub fn draw(&self, picture: &mut Picture, left: usize, options: &RenderOptions, range: f64) {
+    /// Draws the surface into `picture`, the panel's upper left corner at `origin`.
+    pub fn draw(
+        &self,
+        picture: &mut Picture,
+        origin: [usize; 2],
+        options: &RenderOptions,
+        range: f64,
+    ) {
         let painter = Painter::new(&self.camera, self.coat(options, range), options.samples);
         let [columns, rows] = self.tile_counts();
         for row in 0..rows {
             // One row of tiles at a time, which bounds the memory for large pictures.
             let tiles = map_indexed(columns, |column| {
                 let tile = self.tile([column, row], options.samples);
-                (tile, self.colors(&tile, &painter, options))
+                (tile, self.colors(&tile, &painter, |y| options.background(origin[1] + y)))
             });
             for (tile, colors) in &tiles {
-                copy(picture, left, tile, colors);
+                copy(picture, origin, tile, colors);
             }
         }
     }
@@ -113,15 +119,18 @@ impl<'a> Panel<'a> {
     }
 
     /// The pixels of `tile`, row by row: the mean light of their samples.
-    fn colors(&self, tile: &Tile, painter: &Painter, options: &RenderOptions) -> Vec<[u8; 3]> {
+    fn colors(
+        &self,
+        tile: &Tile,
+        painter: &Painter,
+        background: impl Fn(usize) -> Light,
+    ) -> Vec<[u8; 3]> {
         let mut sums: Vec<Light> = vec![[0.0; 3]; tile.size[0] * tile.size[1]];
         let weight = 1.0 / (tile.rate * tile.rate) as f64;
         for (index, seen) in self.seen(tile).enumerate() {
             let [x, y] = tile.pixel(index);
-            let light = seen.map_or_else(
-                || options.background(tile.origin[1] + y),
-                |seen| painter.color(&seen),
-            );
+            let light =
+                seen.map_or_else(|| background(tile.origin[1] + y), |seen| painter.color(&seen));
             add_scaled(&mut sums[y * tile.size[0] + x], weight, light);
         }
         sums.into_iter().map(to_srgb).collect()
@@ -186,11 +195,11 @@ fn bins(cells: &[Cell], size: [usize; 2]) -> Vec<Vec<u32>> {
     bins
 }
 
-/// Copies the pixels of `tile` into the panel that begins at column `left` of `picture`.
-fn copy(picture: &mut Picture, left: usize, tile: &Tile, colors: &[[u8; 3]]) {
+/// Copies the pixels of `tile` into the panel whose upper left corner is at (`left`, `top`).
+fn copy(picture: &mut Picture, [left, top]: [usize; 2], tile: &Tile, colors: &[[u8; 3]]) {
     for (y, row) in colors.chunks_exact(tile.size[0]).enumerate() {
         for (x, &color) in row.iter().enumerate() {
-            picture.set(left + tile.origin[0] + x, tile.origin[1] + y, color);
+            picture.set(left + tile.origin[0] + x, top + tile.origin[1] + y, color);
         }
     }
 }
