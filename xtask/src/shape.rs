@@ -14,7 +14,7 @@ use evenlight::analyse::curvature::{Range, RingCurvature, curvature_over};
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::io::obj;
 use evenlight::surface::Role;
-use evenlight::{Cage, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
 use crate::threads::map_on_threads;
 
@@ -148,7 +148,7 @@ fn read(path: &Path) -> Result<Arc<Cage>, Box<dyn Error>> {
 }
 
 fn build(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface, Box<dyn Error>> {
-    let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+    let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
     Ok(Surface::build(cage.clone(), options)?)
 }
 
