@@ -4,6 +4,7 @@
 //! ring of Bernstein-Bezier patches. Nothing here knows a mesh.
 
 mod catmull_clark;
+mod contraction;
 mod evolving_guide;
 mod guided;
 mod quadratic_attraction;
@@ -12,6 +13,7 @@ mod spline;
 mod subdominant;
 mod tables;
 
+pub use contraction::{Contraction, ContractionError, Variant};
 pub(crate) use guided::{guide_monomials, sampled_guide};
 pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;
@@ -47,22 +49,32 @@ pub enum SchemeKind {
     Guided5,
     /// Guided C2 subdivision [KP18-Guided]: bi-6 rings, curvature continuous at the centre.
     Guided6,
+    /// Fairness-optimal subdivision, ours: the net of [`Self::Qas4`] with the rules of least energy,
+    /// bi-4 rings, curvature bounded at the centre.
+    Fair4,
+    /// Fairness-optimal subdivision without a quadratic that can be set: the net of
+    /// [`Self::EvolvingGuide`], bi-4 rings; curvature is bounded at the centre, but not given.
+    Fair4d,
+    /// Fairness-optimal subdivision: the net of [`Self::Qas3`], 2 x 2 bi-3 macro-patches, curvature
+    /// bounded at the centre.
+    Fair3,
 }
 
 /// Which tables of weights are used, by schemes that have tables.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum RuleSet {
-    /// Full precision, valences 3 and 5 to 16.
+    /// Full precision, valences 3 and 5 to 16; of guided subdivision, with the feature `derive`, to
+    /// 32.
     #[default]
     Generated,
     /// As the papers print them, truncated to 5 digits: valences 3 and 5 to 10. None are printed of
-    /// guided subdivision.
+    /// guided and fairness-optimal subdivision.
     Published,
 }
 
 impl SchemeKind {
     /// All schemes, in the order in which they are listed to users.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::CatmullClark,
         Self::EvolvingGuide,
         Self::Pas3,
@@ -73,6 +85,9 @@ impl SchemeKind {
         Self::Guided4,
         Self::Guided5,
         Self::Guided6,
+        Self::Fair4,
+        Self::Fair4d,
+        Self::Fair3,
     ];
 
     /// The short name used in commands and files.
@@ -88,34 +103,54 @@ impl SchemeKind {
             Self::Guided4 => "guided4",
             Self::Guided5 => "guided5",
             Self::Guided6 => "guided6",
+            Self::Fair4 => "fair4",
+            Self::Fair4d => "fair4d",
+            Self::Fair3 => "fair3",
         }
     }
 
     /// Whether there are rules for valence `n`.
-    pub fn has_rules(self, rules: RuleSet, n: usize) -> bool {
-        match (self, rules) {
-            (Self::CatmullClark, _) => (2..=MAX_CATMULL_CLARK_VALENCE).contains(&n),
-            (_, RuleSet::Generated) => n == 3 || (5..=16).contains(&n),
-            (_, RuleSet::Published) => {
-                self.guided_degree().is_none() && (n == 3 || (5..=10).contains(&n))
-            }
+    pub fn has_rules(self, variant: impl Into<Variant>, n: usize) -> bool {
+        let is_tabulated = |last: usize| n == 3 || (5..=last).contains(&n);
+        match self.last_valence(variant.into()) {
+            None => false,
+            Some(last) if self == Self::CatmullClark => (2..=last).contains(&n),
+            Some(last) => is_tabulated(last),
         }
     }
 
     /// The valences with rules, in words.
-    pub fn valences(self, rules: RuleSet) -> &'static str {
-        match (self, rules) {
-            (Self::CatmullClark, _) => "2 to 1024",
-            (_, RuleSet::Generated) => "3 and 5 to 16",
-            (_, RuleSet::Published) if self.guided_degree().is_some() => "none",
-            (_, RuleSet::Published) => "3 and 5 to 10",
+    pub fn valences(self, variant: impl Into<Variant>) -> &'static str {
+        match self.last_valence(variant.into()) {
+            None => "none",
+            Some(_) if self == Self::CatmullClark => "2 to 1024",
+            Some(PUBLISHED_VALENCE) => "3 and 5 to 10",
+            Some(TABULATED_VALENCE) => "3 and 5 to 16",
+            Some(_) => "3 and 5 to 32",
         }
+    }
+
+    /// The largest valence with rules; `None` if there are none.
+    fn last_valence(self, Variant { rules, contraction }: Variant) -> Option<usize> {
+        self.check_contraction(contraction).ok()?;
+        match (self, rules) {
+            (Self::CatmullClark, _) => Some(MAX_CATMULL_CLARK_VALENCE),
+            (_, RuleSet::Published) => self.is_published().then_some(PUBLISHED_VALENCE),
+            (_, RuleSet::Generated) if self.guided_degree().is_some() => Some(guided::LAST_VALENCE),
+            (_, RuleSet::Generated) => Some(TABULATED_VALENCE),
+        }
+    }
+
+    /// Whether there is a paper that prints the weights.
+    fn is_published(self) -> bool {
+        let ours = matches!(self, Self::Fair4 | Self::Fair4d | Self::Fair3);
+        !ours && self.guided_degree().is_none()
     }
 
     /// Whether the scheme carries a quadratic q along, which can be set; curvature is bounded at
     /// extraordinary points then.
     pub fn has_quadratic(self) -> bool {
-        matches!(self, Self::Qas3 | Self::Qas4)
+        matches!(self, Self::Qas3 | Self::Qas4 | Self::Fair3 | Self::Fair4)
     }
 
     /// Whether curvature is bounded at extraordinary points, and given there: that of the quadratic
@@ -142,16 +177,21 @@ impl SchemeKind {
             Self::CatmullClark => None,
             Self::Guided3 | Self::Guided4 | Self::Guided5 | Self::Guided6 => None,
             Self::EvolvingGuide | Self::Pas4 | Self::Qas4 => Some(Spline::BiQuartic),
-            Self::Pas3 | Self::Qas3 => Some(Spline::BiCubic),
+            Self::Fair4 | Self::Fair4d => Some(Spline::BiQuartic),
+            Self::Pas3 | Self::Qas3 | Self::Fair3 => Some(Spline::BiCubic),
         }
     }
 
     /// The rules at valence `n`, if there are any.
-    pub(crate) fn rules(self, set: RuleSet, n: usize) -> Option<Rules> {
-        if !self.has_rules(set, n) {
+    pub(crate) fn rules(self, variant: impl Into<Variant>, n: usize) -> Option<Rules> {
+        let variant = variant.into();
+        if !self.has_rules(variant, n) {
             return None;
         }
-        let published = set == RuleSet::Published;
+        if let Some(degree) = self.guided_degree() {
+            return guided::rules(n, degree, variant.contraction);
+        }
+        let published = variant.rules == RuleSet::Published;
         match self {
             Self::CatmullClark => Some(catmull_clark::rules(n)),
             Self::EvolvingGuide => evolving_guide::rules(n, published),
@@ -163,10 +203,10 @@ impl SchemeKind {
             }
             Self::Qas3 => quadratic_attraction::rules(n, Spline::BiCubic, published),
             Self::Qas4 => quadratic_attraction::rules(n, Spline::BiQuartic, published),
-            Self::Guided3 => guided::rules(n, 3),
-            Self::Guided4 => guided::rules(n, 4),
-            Self::Guided5 => guided::rules(n, 5),
-            Self::Guided6 => guided::rules(n, 6),
+            Self::Guided3 | Self::Guided4 | Self::Guided5 | Self::Guided6 => None,
+            Self::Fair4 => quadratic_attraction::fair_rules(n, Spline::BiQuartic),
+            Self::Fair4d => evolving_guide::fair_rules(n),
+            Self::Fair3 => quadratic_attraction::fair_rules(n, Spline::BiCubic),
         }
     }
 
@@ -186,6 +226,10 @@ impl SchemeKind {
         }
     }
 }
+
+/// The largest valence whose rules are tabulated, and whose rules the papers print.
+const TABULATED_VALENCE: usize = 16;
+const PUBLISHED_VALENCE: usize = 10;
 
 /// Catmull-Clark has rules for every valence; the limit keeps a face with a million corners from
 /// using up the memory.
