@@ -9,6 +9,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use evenlight::io::load::{Format, LoadError, Loaded};
+use evenlight::surface::SurfaceError;
 use evenlight::{Cage, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
@@ -117,7 +118,10 @@ pub fn build(
     options: SurfaceOptions,
     source: &Source,
 ) -> Result<Surface, Failure> {
-    Surface::build(cage, options).map_err(|error| Failure::Unusable(format!("{source}: {error}")))
+    Surface::build(cage, options).map_err(|error| match error {
+        SurfaceError::Contraction(error) => Failure::Usage(error.to_string()),
+        error => Failure::Unusable(format!("{source}: {error}")),
+    })
 }
 
 /// Says on stderr which faces have no surface.
