@@ -17,7 +17,8 @@ use evenlight_guide::guided::rings::{Form, Rings};
 use evenlight_guide::linear::Matrix;
 use evenlight_guide::real::Real;
 
-use crate::shape::{OBSTACLES, map_on_threads, read, short};
+use crate::shape::{OBSTACLES, read, short};
+use crate::threads::map_on_threads;
 
 /// Measure guided surfaces and write the tables of crates/evenlight/docs/07-guided.md.
 #[derive(clap::Args)]

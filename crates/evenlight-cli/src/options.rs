@@ -110,6 +110,9 @@ fn about_scheme(scheme: SchemeKind) -> &'static str {
         SchemeKind::Guided4 => "Guided C2: bi-4, 12n patches per ring; C1, curvature bounded",
         SchemeKind::Guided5 => "Guided C2: bi-5, 3n patches per ring; C1, curvature bounded",
         SchemeKind::Guided6 => "Guided C2: bi-6, 3n patches per ring; C2, curvature continuous",
+        SchemeKind::Fair4 => "Fairness-optimal: QAS4's net with the rules of least energy, bi-4",
+        SchemeKind::Fair4d => "Fairness-optimal: EG's net with the rules of least energy, bi-4",
+        SchemeKind::Fair3 => "Fairness-optimal: QAS3's net with the rules of least energy, bi-3",
     }
 }
 
