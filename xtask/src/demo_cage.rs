@@ -509,7 +509,7 @@ mod tests {
 
     #[test]
     fn extraordinary_vertices_of_valence_3_5_6_and_8_are_isolated() {
-        let points = extraordinary_points(checked().topology());
+        let points = extraordinary_points(&checked(), BoundaryRule::default());
         let valences: BTreeSet<usize> = points.iter().map(|p| p.valence).collect();
         assert_eq!(valences, BTreeSet::from([3, 5, 6, 8]));
         assert!(points.iter().all(|p| p.level == 0));

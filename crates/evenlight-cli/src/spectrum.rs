@@ -38,7 +38,11 @@ pub struct SpectrumArgs {
 
 /// Runs `evenlight spectrum`.
 pub fn run(args: &SpectrumArgs, quiet: bool) -> Result<(), Failure> {
-    let options = SurfaceOptions { scheme: args.scheme, rules: args.rules.rules.into() };
+    let options = SurfaceOptions {
+        scheme: args.scheme,
+        rules: args.rules.rules.into(),
+        ..SurfaceOptions::default()
+    };
     let spectra = spectra(options, &args.valence, quiet)?;
     if args.json {
         args.output.write_json(&Document::new(options, &spectra))
@@ -57,7 +61,7 @@ pub fn spectra(
     valences: &RangeInclusive<usize>,
     quiet: bool,
 ) -> Result<Vec<Spectrum>, Failure> {
-    let SurfaceOptions { scheme, rules } = options;
+    let SurfaceOptions { scheme, rules, .. } = options;
     let is_range = valences.start() < valences.end();
     let valences: Vec<usize> = valences.clone().filter(|&n| !(is_range && n == 4)).collect();
     if let Some(&n) = valences.iter().find(|&&n| !scheme.has_rules(rules, n)) {
@@ -70,7 +74,8 @@ pub fn spectra(
 }
 
 fn no_rules(scheme: SchemeKind, rules: RuleSet, valence: usize) -> String {
-    let kind = rules_name(SurfaceOptions { scheme, rules }).map(|r| r.to_owned() + " ");
+    let kind = rules_name(SurfaceOptions { scheme, rules, ..SurfaceOptions::default() })
+        .map(|r| r.to_owned() + " ");
     let others = RuleSet::Generated;
     let advice = if rules != others && scheme.has_rules(others, valence) {
         format!("; its generated rules are for {}", scheme.valences(others))

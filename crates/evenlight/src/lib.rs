@@ -20,9 +20,9 @@
 //! assert_eq!(cage.interior_valences(), [(3, 8)].into());
 //!
 //! // Build a surface over it.
-//! use evenlight::{RuleSet, SchemeKind, Surface, SurfaceOptions};
+//! use evenlight::{SchemeKind, Surface, SurfaceOptions};
 //!
-//! let options = SurfaceOptions { scheme: SchemeKind::Qas4, rules: RuleSet::Generated };
+//! let options = SurfaceOptions { scheme: SchemeKind::Qas4, ..SurfaceOptions::default() };
 //! let surface = Surface::build(Arc::new(cage), options)?;
 //! assert_eq!(surface.extraordinary_points().len(), 8);
 //!

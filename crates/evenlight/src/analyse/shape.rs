@@ -92,14 +92,14 @@ pub struct PointShape {
 ///
 /// ```
 /// use evenlight::analyse::shape::shape;
-/// use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions};
+/// use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions};
 ///
 /// // The cube: eight points of valence 3, all alike.
 /// let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(|x| 2.0 * f64::from(x) - 1.0);
 /// let faces: [[u32; 4]; 6] =
 ///     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 /// let cube = Cage::new(Mesh::new((0..8).map(corner).collect(), faces)).unwrap();
-/// let options = SurfaceOptions { scheme: SchemeKind::Qas4, rules: RuleSet::Generated };
+/// let options = SurfaceOptions { scheme: SchemeKind::Qas4, ..SurfaceOptions::default() };
 /// let points = shape(&Surface::build(cube, options).unwrap(), 6);
 /// assert_eq!(points.len(), 8);
 /// assert!(points[0].curvature.mean.max < 0.0, "convex everywhere");

@@ -5,6 +5,7 @@
 
 mod catmull_clark;
 mod evolving_guide;
+mod fan;
 mod guided;
 mod quadratic_attraction;
 mod rules;
@@ -12,6 +13,7 @@ mod spline;
 mod subdominant;
 mod tables;
 
+pub(crate) use fan::{FanLimit, rules as fan_rules};
 pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;
 

@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "every test file uses a part of this")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its cages fails")]
 
+pub mod refine;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -45,7 +47,7 @@ pub fn all_cages() -> Vec<(String, Arc<Cage>)> {
 }
 
 pub fn options(scheme: SchemeKind) -> SurfaceOptions {
-    SurfaceOptions { scheme, rules: RuleSet::Generated }
+    SurfaceOptions { scheme, rules: RuleSet::Generated, ..SurfaceOptions::default() }
 }
 
 pub fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Surface {
