@@ -491,7 +491,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use evenlight::mesh::isolation::extraordinary_points;
-    use evenlight::mesh::{Cage as CheckedCage, Mesh};
+    use evenlight::mesh::{BoundaryRule, Cage as CheckedCage, Mesh};
 
     use super::*;
 

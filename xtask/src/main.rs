@@ -7,6 +7,8 @@
 mod bench;
 #[cfg(feature = "library")]
 mod demo_cage;
+mod feature_cages;
+mod osd;
 #[cfg(feature = "library")]
 mod pictures;
 #[cfg(feature = "library")]
@@ -28,6 +30,8 @@ enum Chore {
     Bench(bench::Arguments),
     #[cfg(feature = "library")]
     DemoCage(demo_cage::Arguments),
+    FeatureCages(feature_cages::Arguments),
+    Osd(osd::Arguments),
     #[cfg(feature = "library")]
     Pictures(pictures::Arguments),
     #[cfg(feature = "library")]
@@ -52,6 +56,8 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
         Chore::Bench(arguments) => bench::run(arguments),
         #[cfg(feature = "library")]
         Chore::DemoCage(arguments) => demo_cage::run(arguments),
+        Chore::FeatureCages(arguments) => feature_cages::run(arguments),
+        Chore::Osd(arguments) => osd::run(arguments),
         #[cfg(feature = "library")]
         Chore::Pictures(arguments) => pictures::run(arguments),
         #[cfg(feature = "library")]

@@ -10,7 +10,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 13] = [
+const LAYERS: [&str; 15] = [
     "point",
     "angle",
     "parallel",
@@ -19,6 +19,8 @@ const LAYERS: [&str; 13] = [
     "net",
     "scheme",
     "rings",
+    "cap",
+    "basis",
     "surface",
     "tessellate",
     "analyse",

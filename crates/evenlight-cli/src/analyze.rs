@@ -27,7 +27,7 @@ use record::Document;
 /// Arguments of `evenlight analyze`.
 #[derive(Args, Debug)]
 pub struct AnalyzeArgs {
-    /// The cage: an OBJ file with quads and n-gons, counter-clockwise; `-` for stdin
+    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
     cage: Source,
 
     /// Schemes to compare

@@ -5,7 +5,7 @@ use std::fmt;
 use std::io::{self, Write};
 
 use clap::Args;
-use evenlight::io::obj::{self, LoadError, Notice};
+use evenlight::io::load::{LoadError, Loaded, Notice};
 use evenlight::mesh::BoundaryRule;
 use evenlight::mesh::isolation::{self, Extraordinary, Place};
 use evenlight::surface::PointRule;
@@ -13,14 +13,14 @@ use evenlight::{Cage, SchemeKind, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
-use crate::input::{Source, WHY_OMITTED, omitted_text};
+use crate::input::{self, Source, WHY_OMITTED, omitted_text};
 use crate::options::{BoundaryArg, scheme_parser};
 use crate::output::Target;
 
 /// Arguments of `evenlight check`.
 #[derive(Args, Debug)]
 pub struct CheckArgs {
-    /// The cage: an OBJ file with quads and n-gons, counter-clockwise; `-` for stdin
+    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
     cage: Source,
 
     /// The scheme that extraordinary points are to get
@@ -45,7 +45,7 @@ pub struct CheckArgs {
 ///
 /// All faults of the cage, if it cannot be used.
 pub fn run(args: &CheckArgs) -> Result<(), Failure> {
-    let result = obj::read_cage(&args.cage.read()?);
+    let result = input::read_mesh(&args.cage)?.and_then(Loaded::check);
     let options = SurfaceOptions {
         scheme: args.scheme,
         boundary: args.boundary.rule(),
@@ -140,15 +140,9 @@ impl Report {
     pub fn of(result: &Result<(Cage, Vec<Notice>), LoadError>, options: SurfaceOptions) -> Self {
         match result {
             Ok((cage, notices)) => Self::of_cage(cage, notices, options),
-            Err(LoadError::Read(error)) => {
-                let more = (error.num_more > 0)
-                    .then(|| format!("and {} more lines that cannot be read", error.num_more));
-                let faults = error.faults.iter().map(ToString::to_string);
-                Self { errors: faults.chain(more).collect(), ..Self::default() }
-            }
-            Err(LoadError::Check(refusal)) => Self {
-                errors: refusal.error.errors.iter().map(|e| e.describe(&refusal.source)).collect(),
-                warnings: refusal.unknown_tags.iter().map(ToString::to_string).collect(),
+            Err(error) => Self {
+                errors: error.faults(),
+                warnings: error.notices().iter().map(ToString::to_string).collect(),
                 ..Self::default()
             },
         }

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use evenlight::io::obj;
+use evenlight::io::load::{Format, LoadError, Loaded};
 use evenlight::{Cage, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
@@ -50,6 +50,14 @@ impl Source {
         bytes.map_err(|error| Failure::io(self, &error))
     }
 
+    /// The kind of cage file that the extension names, if it does.
+    fn format(&self) -> Option<Format> {
+        match self {
+            Self::Stdin => None,
+            Self::File(path) => Format::from_extension(path.extension()?.to_str()?),
+        }
+    }
+
     /// All bytes, which must be UTF-8; a failure names the place.
     pub fn read_text(&self) -> Result<String, Failure> {
         String::from_utf8(self.read()?)
@@ -84,12 +92,23 @@ pub fn read_surface(args: &SurfaceArgs) -> Result<Surface, Failure> {
 
 /// The cage in `source`; what is ignored is said on stderr.
 pub fn read_cage(source: &Source) -> Result<Arc<Cage>, Failure> {
-    let (cage, notices) = obj::read_cage(&source.read()?)
-        .map_err(|error| Failure::Unusable(format!("{source}: {error}")))?;
+    let refused = |error: LoadError| Failure::Unusable(format!("{source}: {error}"));
+    let (cage, notices) = load(source)?.check().map_err(refused)?;
     for notice in notices {
         warn(format_args!("{source}: {notice}"));
     }
     Ok(Arc::new(cage))
+}
+
+/// The mesh in `source`, not checked.
+pub fn load(source: &Source) -> Result<Loaded, Failure> {
+    read_mesh(source)?.map_err(|error| Failure::Unusable(format!("{source}: {error}")))
+}
+
+/// The mesh in `source`, not checked, or why its bytes are none.
+pub fn read_mesh(source: &Source) -> Result<Result<Loaded, LoadError>, Failure> {
+    let bytes = source.read()?;
+    Ok(source.format().unwrap_or_else(|| Format::of_content(&bytes)).read(&bytes))
 }
 
 /// The surface over `cage`, which was read from `source`.

@@ -3,7 +3,8 @@
 //! Every subcommand is one file and one short story: arguments, library, file.
 //!
 //! ```text
-//! check      is the cage fit, and what is in it     mesh      triangles: .obj .ply .stl
+//! check      is the cage fit, and what is in it     convert   cages: .obj .ply
+//! mesh       triangles: .obj .ply .stl
 //! patches    BB patches: .bv .json                  eval      points, derivatives, curvature
 //! render     pictures: .png                         analyze   fairness in numbers
 //! q          quadratics, to be edited for --q       spectrum  eigenvalues of the rules
@@ -12,6 +13,7 @@
 
 mod analyze;
 mod check;
+mod convert;
 mod demo;
 mod error;
 mod eval;
@@ -59,6 +61,8 @@ enum Command {
     Demo(demo::DemoArgs),
     /// Whether a cage can be used, and what is in it
     Check(check::CheckArgs),
+    /// A cage from one kind of file to another: .obj, .ply
+    Convert(convert::ConvertArgs),
     /// The surface as Bernstein-Bezier patches: BezierView .bv or .json
     Patches(patches::PatchesArgs),
     /// Triangles of the limit surface with exact normals: .obj, .ply or .stl
@@ -101,6 +105,7 @@ fn run(cli: &Cli) -> Result<(), Failure> {
     match &cli.command {
         Command::Demo(args) => demo::run(args, quiet),
         Command::Check(args) => check::run(args),
+        Command::Convert(args) => convert::run(args),
         Command::Patches(args) => patches::run(args, quiet),
         Command::Mesh(args) => mesh::run(args, quiet),
         Command::Eval(args) => eval::run(args, quiet),

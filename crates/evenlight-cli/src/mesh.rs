@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use evenlight::Surface;
-use evenlight::io::{obj_out, ply, stl};
+use evenlight::io::{obj_out, ply_out, stl};
 use evenlight::tessellate::{TriangleMesh, tessellate};
 
 use crate::error::Failure;
@@ -65,7 +65,7 @@ pub fn triangles(surface: &Surface, rate: usize) -> Result<TriangleMesh, Failure
 pub fn write(mesh: &TriangleMesh, format: MeshFormat, target: &Target) -> Result<(), Failure> {
     target.write(|mut out| match format {
         MeshFormat::Obj => obj_out::write(mesh, &mut out),
-        MeshFormat::Ply => ply::write(mesh, &mut out),
+        MeshFormat::Ply => ply_out::write(mesh, &mut out),
         MeshFormat::Stl => stl::write(mesh, &mut out),
     })
 }

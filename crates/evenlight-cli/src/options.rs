@@ -26,7 +26,7 @@ pub struct Global {
 /// The cage and the rules that make a surface of it.
 #[derive(Args, Clone, Debug)]
 pub struct SurfaceArgs {
-    /// The cage: an OBJ file with quads and n-gons, counter-clockwise; `-` for stdin
+    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
     pub cage: Source,
 
     /// Subdivision scheme; what it is like around an extraordinary point of valence n

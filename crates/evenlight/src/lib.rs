@@ -59,6 +59,8 @@
 //! | [`net`] | control nets around one extraordinary point, the quadratic q |
 //! | [`scheme`] | which rules there are |
 //! | [`rings`] | the surface around one extraordinary point at any depth |
+//! | [`cap`] | finitely many patches instead of all further rings |
+//! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
@@ -72,6 +74,8 @@
 
 pub mod analyse;
 mod angle;
+pub mod basis;
+pub mod cap;
 pub mod io;
 pub mod mesh;
 pub mod net;

@@ -62,6 +62,18 @@ impl ValenceRules {
         let subdominant = Subdominant::without_plane(&rules, limit.lambda);
         Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
     }
+
+    pub(crate) fn kind(&self) -> SchemeKind {
+        self.kind
+    }
+
+    pub(crate) fn rules(&self) -> &Rules {
+        &self.rules
+    }
+
+    pub(crate) fn subdominant(&self) -> &Subdominant {
+        &self.subdominant
+    }
 }
 
 /// The surface around one extraordinary point.
@@ -303,9 +315,27 @@ impl Rings {
         Some([0, 1, 2, 3, 4].map(world))
     }
 
+    /// The rules, shared by all points of this valence.
+    pub(crate) fn rules(&self) -> &ValenceRules {
+        &self.rules
+    }
+
+    /// The net in front of ring `ring`, in the frame and scaled as that ring.
+    pub(crate) fn net(&self, ring: usize) -> Vec<Vector> {
+        match ring {
+            0 => self.first.clone(),
+            _ => self.with_ring(ring - 1, |r| r.next.clone()),
+        }
+    }
+
+    /// All patches of ring `ring` in the frame, scaled as that ring.
+    pub(crate) fn frame_patches(&self, ring: usize) -> Vec<Patch> {
+        self.with_ring(ring, |r| r.patches.clone())
+    }
+
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
     /// in (a,b).
-    fn in_world(&self, ring: usize, size: f64, jet: &Jet) -> SurfacePoint {
+    pub(crate) fn in_world(&self, ring: usize, size: f64, jet: &Jet) -> SurfacePoint {
         let lambda = self.lambda();
         let sigma = power(lambda, ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
@@ -330,7 +360,7 @@ impl Rings {
     }
 
     /// A patch of ring `ring` in world coordinates.
-    fn to_world(&self, ring: usize, patch: &Patch) -> Patch {
+    pub(crate) fn to_world(&self, ring: usize, patch: &Patch) -> Patch {
         let sigma = power(self.lambda(), ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
         let point = |&r: &Vector| add(self.center, self.frame.world(sigma, zeta, r));
@@ -442,7 +472,7 @@ fn normal_and_curvature(jet: &Jet, sigma: f64, zeta: f64) -> (Vector, f64, f64) 
 }
 
 /// The ring l with 2^-(l+1) < x <= 2^-l, for 0 < x <= 1.
-fn ring_of(x: f64) -> usize {
+pub(crate) fn ring_of(x: f64) -> usize {
     let (mut ring, mut x) = (0, x);
     while x <= 0.5 {
         x *= 2.0;
@@ -452,12 +482,12 @@ fn ring_of(x: f64) -> usize {
 }
 
 /// x 2^ring, exactly (2^ring itself may be out of range when x is denormal).
-fn scaled_up(x: f64, ring: usize) -> f64 {
+pub(crate) fn scaled_up(x: f64, ring: usize) -> f64 {
     (0..ring).fold(x, |x, _| 2.0 * x)
 }
 
 /// x^k by repeated squaring, in a fixed order of rounding.
-fn power(x: f64, k: usize) -> f64 {
+pub(crate) fn power(x: f64, k: usize) -> f64 {
     let (mut result, mut square, mut k) = (1.0, x, k);
     while k > 0 {
         if k & 1 == 1 {

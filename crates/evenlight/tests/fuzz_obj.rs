@@ -10,41 +10,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
-use std::panic;
+mod fuzz;
+
 use std::path::Path;
 
 use evenlight::Mesh;
-use evenlight::io::obj::{self, LoadError};
-
-/// A small generator of pseudo-random numbers (SplitMix64): every case has its own seed.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    /// A number from 0 to `end - 1`.
-    fn below(&mut self, end: usize) -> usize {
-        (self.next() % end as u64) as usize
-    }
-
-    fn one_in(&mut self, n: usize) -> bool {
-        self.below(n) == 0
-    }
-
-    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[self.below(from.len())]
-    }
-}
-
-/// Bytes without any order.
-fn noise(random: &mut Random) -> Vec<u8> {
-    (0..random.below(300)).map(|_| random.next() as u8).collect()
-}
+use evenlight::io::load::LoadError;
+use evenlight::io::obj;
+use fuzz::{Random, mutated, noise};
 
 /// Bytes that mean something to the reader, without any order.
 fn rubble(random: &mut Random) -> Vec<u8> {
@@ -119,7 +92,25 @@ const OTHERS: &[&str] = &[
     "vt",
     "vn 1",
     "vt 0 0",
+    "vt 1 0.5",
+    "vt 0.25 1 -3",
+    "vt 1e999 0",
     "vn 0 0 1",
+    "t crease 2/1/0 0 1 2.5",
+    "t crease 3/2/0 0 1 2 inf 3",
+    "t crease 4/1/0 0 1 4294967295 2 nan",
+    "t corner 2/1/0 0 7 10",
+    "t hole 1/0/0 0",
+    "t hole 0/0/0",
+    "t interpolateboundary 1/0/0 2",
+    "t facevaryinginterpolateboundary 1/0/0 9",
+    "t creasemethod 0/0/1 chaikin",
+    "t smoothtriangles 0/0/1 smooth",
+    "t vertexedit 1/3/2 0 1 1 1 add P",
+    "t crease 99999999999999999999/1/0",
+    "t x 0/0/1 \u{e9}",
+    "t",
+    "v 0 0 0 1 0 0.5",
     "\u{feff}v 1 2 3",
     "curv 0 1 \\",
     "f",
@@ -166,33 +157,6 @@ fn corner(random: &mut Random) -> String {
     }
 }
 
-/// A text with a few bytes or pieces changed.
-fn mutated(text: &[u8], random: &mut Random) -> Vec<u8> {
-    let mut text = text.to_vec();
-    for _ in 0..1 + random.below(3) {
-        let at = random.below(text.len().max(1)).min(text.len());
-        let end = (at + random.below(40)).min(text.len());
-        match random.below(12) {
-            0 if at < text.len() => text[at] = random.next() as u8,
-            1 if at < text.len() => text[at] = random.pick(b"0123456789- \n\\#/vf."),
-            2 => drop(text.drain(at..end)),
-            3 => text.insert(at, random.pick(b"0123456789- \n\\#/vf.")),
-            4 => {
-                let piece = text[at..end].to_vec();
-                let to = random.below(text.len() + 1);
-                text.splice(to..to, piece);
-            }
-            5 => text.truncate(text.len() - random.below(40).min(text.len())),
-            // Another coordinate, more often than another corner.
-            _ if text.get(at).is_some_and(u8::is_ascii_digit) => {
-                text[at] = random.pick(b"0123456789");
-            }
-            _ => {}
-        }
-    }
-    text
-}
-
 /// Small meshes of ours, good as they are.
 fn good_texts() -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes/obstacle");
@@ -215,7 +179,7 @@ fn case(seed: u64, good: &[Vec<u8>]) -> Vec<u8> {
         2..=4 => lines(random),
         _ => {
             let text = &good[random.below(good.len())];
-            mutated(text, random)
+            mutated(text, b"0123456789- \n\\#/vf.", random)
         }
     }
 }
@@ -225,8 +189,12 @@ fn hold_to_the_contract(bytes: &[u8]) -> bool {
     match obj::read_cage(bytes) {
         Ok((cage, notices)) => {
             assert!(notices.iter().all(|notice| !notice.to_string().is_empty()));
-            let (positions, faces) = (cage.positions().to_vec(), cage.topology().faces().clone());
-            let mesh = Mesh { positions, faces, ..Mesh::default() };
+            let mesh = Mesh {
+                positions: cage.positions().to_vec(),
+                faces: cage.topology().faces().clone(),
+                tags: cage.tags().clone(),
+                primvars: cage.primvars().to_vec(),
+            };
             let mut text = Vec::new();
             obj::write(&mesh, &mut text).unwrap();
             assert_eq!(obj::read(&text).unwrap().mesh, mesh);
@@ -236,7 +204,7 @@ fn hold_to_the_contract(bytes: &[u8]) -> bool {
             let message = error.to_string();
             assert!(message.contains(": ") && message.lines().count() <= 24, "{message}");
             assert!(!message.chars().any(|c| c.is_control() && c != '\n'), "{message}");
-            if let LoadError::Read(error) = error {
+            if let LoadError::Obj(error) = error {
                 let ends = bytes.iter().filter(|b| matches!(b, b'\n' | b'\r')).count() as u32;
                 assert!(error.faults.iter().all(|f| (1..=ends + 1).contains(&f.line)));
                 assert!(error.faults.is_sorted_by(|a, b| a.line < b.line));
@@ -250,18 +218,7 @@ fn hold_to_the_contract(bytes: &[u8]) -> bool {
 fn run(count: u64) -> usize {
     let good = good_texts();
     assert!(good.iter().all(|text| hold_to_the_contract(text)));
-    let mut cages = 0;
-    for seed in 0..count {
-        let bytes = case(seed, &good);
-        match panic::catch_unwind(|| hold_to_the_contract(&bytes)) {
-            Ok(is_cage) => cages += usize::from(is_cage),
-            Err(panic) => {
-                eprintln!("seed {seed}: {}", bytes.escape_ascii());
-                panic::resume_unwind(panic);
-            }
-        }
-    }
-    cages
+    fuzz::run(count, |seed| case(seed, &good), hold_to_the_contract)
 }
 
 #[test]

@@ -339,7 +339,7 @@ fn the_number_of_threads_does_not_change_a_byte() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
         let mut bytes = Vec::new();
         let mesh = pool.install(|| tessellate(&surface, 7)).unwrap();
-        evenlight::io::ply::write(&mesh, &mut bytes).unwrap();
+        evenlight::io::ply_out::write(&mesh, &mut bytes).unwrap();
         bytes
     });
     assert!(bytes[0] == bytes[1] && bytes[1] == bytes[2]);

@@ -5,7 +5,7 @@
 mod common;
 
 use evenlight::SchemeKind;
-use evenlight::io::{bv, obj_out, ply, stl};
+use evenlight::io::{bv, obj_out, ply_out, stl};
 use evenlight::mesh::Mesh;
 use evenlight::patch::Patch;
 use evenlight::surface::{PlacedPatch, QuadId, Role};
@@ -126,7 +126,7 @@ fn parse_number(kind: &str, body: &mut &[u8]) -> f64 {
 #[test]
 fn ply_is_read_by_an_independent_reader() {
     let mesh = tetrahedron();
-    let elements = parse_ply(&written(|out| ply::write(&mesh, out)));
+    let elements = parse_ply(&written(|out| ply_out::write(&mesh, out)));
     let [(vertex, vertices), (face, faces)] = &elements[..] else { panic!("{elements:?}") };
     assert_eq!((vertex.as_str(), face.as_str()), ("vertex", "face"));
     let names = ["x", "y", "z", "nx", "ny", "nz", "gauss_curvature", "mean_curvature"];
@@ -211,7 +211,7 @@ fn bv_gives_back_every_patch_to_the_last_bit() {
 fn a_full_disk_is_an_error() {
     let mesh = tetrahedron();
     assert!(obj_out::write(&mesh, &mut &mut [0; 10][..]).is_err());
-    assert!(ply::write(&mesh, &mut &mut [0; 10][..]).is_err());
+    assert!(ply_out::write(&mesh, &mut &mut [0; 10][..]).is_err());
     assert!(stl::write(&mesh, &mut &mut [0; 10][..]).is_err());
     assert!(bv::write([placed(Role::Regular, 0.0)], &mut &mut [0; 10][..]).is_err());
 }

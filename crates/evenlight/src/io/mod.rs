@@ -2,7 +2,10 @@
 
 pub mod bv;
 mod digits;
+mod excerpt;
+pub mod load;
 pub mod obj;
 pub mod obj_out;
 pub mod ply;
+pub mod ply_out;
 pub mod stl;

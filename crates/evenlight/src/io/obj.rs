@@ -1,9 +1,12 @@
 //! Wavefront OBJ: cages in, meshes out.
 //!
 //! ```text
-//! v x y z         a vertex; further numbers (w, colours) must be numbers and are ignored
-//! vt, vn          counted only: channels of faces are not kept yet
-//! f c1 c2 ...     a face of any size; a corner is v, v/vt, v//vn or v/vt/vn
+//! v x y z             a vertex; of six numbers the last three are its colour, any other further
+//!                     numbers (w) must be numbers and are ignored
+//! vt u [v [w]]        a texture coordinate; what is missing is 0
+//! vn                  counted only
+//! f c1 c2 ...         a face of any size; a corner is v, v/vt, v//vn or v/vt/vn
+//! t NAME a/b/c ...    a tag with a whole numbers, b numbers and c words; see below
 //! o g s usemtl mtllib   ignored
 //! # ...           a comment up to the end of the line
 //! ```
@@ -17,19 +20,40 @@
 //! counted and reported once. Only words that matter are looked at: the bytes need not be
 //! UTF-8, and a byte order mark is skipped.
 //!
+//! Tags are those of the shapes that OpenSubdiv is tested with; they count from 0:
+//!
+//! ```text
+//! t crease 2/1/0 V W SHARPNESS               or several pairs, with one number for all or one each;
+//!                                            or a chain: an odd number of vertices, or one number
+//!                                            for each of its edges
+//! t corner 1/1/0 V SHARPNESS                 or several, likewise
+//! t hole 1/0/0 FACE                          or several
+//! t interpolateboundary 1/0/0 0|1|2          none, edge-and-corner, edge-only
+//! t facevaryinginterpolateboundary 1/0/0 0..5   none, corners-only, corners-plus1, corners-plus2,
+//!                                            boundaries, all
+//! t creasemethod 0/0/1 normal|chaikin
+//! t smoothtriangles 0/0/1 catmark            anything else is ignored and reported
+//! t facevaryingpropagatecorners 1/0/0 0      likewise
+//! ```
+//!
+//! Hierarchical edits (`vertexedit`, `edgeedit`, `faceedit`) are refused. Texture coordinates
+//! become the face-varying channel `st`, colours the vertex channel `color`.
+//!
 //! Coordinates are read as `str::parse::<f64>` reads them, to the nearest number of 64 bits.
 //! [`write()`] writes the shortest digits that are read as the same number.
 
 use std::fmt;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 
-use super::digits::Digits;
-use crate::mesh::{Cage, CheckError, FaceId, Mesh, Names, VertexId, Warning};
-use crate::point::Point;
+use super::load::{LoadError, Loaded, Naming, Notice};
+use crate::mesh::{Cage, FaceId, Mesh, Names, Tags, VertexId};
 
+mod channels;
 mod fault;
 mod parse;
+mod tag;
 mod words;
+mod write;
 
 pub use fault::{Channel, Element, LineFault, ReadError, Reason};
 
@@ -37,12 +61,23 @@ pub use fault::{Channel, Element, LineFault, ReadError, Reason};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Obj {
-    /// Its vertices and faces, in order.
+    /// Its vertices and faces in order, its tags and channels.
     pub mesh: Mesh,
     /// Where they stand.
     pub source: Source,
     /// The tags that were not understood, in the order of their first lines.
     pub unknown_tags: Vec<UnknownTag>,
+    /// What was completed or left out, in sentences.
+    pub remarks: Vec<String>,
+}
+
+impl From<Obj> for Loaded {
+    fn from(obj: Obj) -> Self {
+        let Obj { mesh, source, unknown_tags, remarks } = obj;
+        let tags = unknown_tags.into_iter().map(Notice::UnknownTag);
+        let notices = tags.chain(remarks.into_iter().map(Notice::Remark)).collect();
+        Self { mesh, naming: Naming::Lines(source), notices }
+    }
 }
 
 /// Reads an OBJ file. One pass; time and memory are linear in its length.
@@ -85,24 +120,7 @@ pub fn read(bytes: &[u8]) -> Result<Obj, ReadError> {
 /// assert!(error.to_string().starts_with(expected));
 /// ```
 pub fn read_cage(bytes: &[u8]) -> Result<(Cage, Vec<Notice>), LoadError> {
-    let Obj { mesh, source, unknown_tags } = read(bytes)?;
-    match Cage::new(mesh) {
-        Ok(cage) => {
-            let notices = notices(unknown_tags, &cage, &source);
-            Ok((cage, notices))
-        }
-        Err(error) => Err(LoadError::Check(Refusal { error, source, unknown_tags })),
-    }
-}
-
-fn notices(unknown_tags: Vec<UnknownTag>, cage: &Cage, source: &Source) -> Vec<Notice> {
-    let of_tags = unknown_tags.into_iter().map(Notice::UnknownTag);
-    let of_mesh = cage.warnings().iter().map(|warning| match warning {
-        Warning::UnusedVertices(vertices) => {
-            Notice::UnusedVertices { count: vertices.len(), message: warning.describe(source) }
-        }
-    });
-    of_tags.chain(of_mesh).collect()
+    Loaded::from(read(bytes)?).check()
 }
 
 /// The lines of a file on which its vertices and faces begin, counted from 1.
@@ -112,6 +130,15 @@ fn notices(unknown_tags: Vec<UnknownTag>, cage: &Cage, source: &Source) -> Vec<N
 pub struct Source {
     vertex_lines: Vec<u32>,
     face_lines: Vec<u32>,
+    tag_lines: TagLines,
+}
+
+/// The line of everything in [`Tags`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct TagLines {
+    creases: Vec<u32>,
+    corners: Vec<u32>,
+    holes: Vec<u32>,
 }
 
 impl Source {
@@ -123,6 +150,14 @@ impl Source {
     /// The line on which `face` begins; `None` if there is no such face.
     pub fn face_line(&self, face: FaceId) -> Option<u32> {
         self.face_lines.get(face.index()).copied()
+    }
+
+    /// What is in `tags` and not known here yet is of `line`.
+    fn end_tags(&mut self, line: u32, tags: &Tags) {
+        let TagLines { creases, corners, holes } = &mut self.tag_lines;
+        creases.resize(tags.creases.len(), line);
+        corners.resize(tags.corners.len(), line);
+        holes.resize(tags.holes.len(), line);
     }
 }
 
@@ -166,68 +201,13 @@ impl fmt::Display for UnknownTag {
     }
 }
 
-/// Something in a file that was ignored.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Notice {
-    /// The lines with a tag that is not known.
-    UnknownTag(UnknownTag),
-    /// The vertices in no face.
-    UnusedVertices {
-        /// How many there are.
-        count: usize,
-        /// The sentence that names the first of them.
-        message: String,
-    },
-}
-
-impl fmt::Display for Notice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::UnknownTag(tag) => tag.fmt(f),
-            Self::UnusedVertices { message, .. } => f.write_str(message),
-        }
-    }
-}
-
-/// Why a file gives no cage.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum LoadError {
-    /// It cannot be read.
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    /// Its mesh cannot be used.
-    #[error("{0}")]
-    Check(Refusal),
-}
-
-/// The faults of a mesh and where in the file it stands.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
-    /// The faults.
-    pub error: CheckError,
-    /// The lines of the file.
-    pub source: Source,
-    /// The tags that were not understood.
-    pub unknown_tags: Vec<UnknownTag>,
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.error.describe(&self.source))?;
-        // Most likely the cause, when what was read is not a mesh: the file is of another kind.
-        match &self.unknown_tags[..] {
-            [] => Ok(()),
-            [tag] => write!(f, "\nnote: {tag}"),
-            [tag, others @ ..] => write!(f, "\nnote: {tag}, and {} more tags", others.len()),
-        }
-    }
-}
-
-/// Writes `mesh` as OBJ: vertices in order, then faces in order, nothing else.
+/// Writes `mesh` as OBJ: vertices in order with the channel `color`, texture coordinates, faces
+/// in order, tags that differ from the default; [`omitted`] tells what this leaves out.
 ///
 /// The same mesh always gives the same bytes. Numbers have the shortest digits that are read as
-/// the same 64 bits, so that [`read`] returns the mesh, except that NaN is not equal to itself
-/// and that a face at a vertex that does not exist is refused there.
+/// the same 64 bits, so that [`read`] returns the mesh, except that NaN is not equal to itself,
+/// that a face at a vertex that does not exist is refused there, and that channels get the
+/// names `st` and `color` and `st` becomes face-varying.
 ///
 /// # Errors
 ///
@@ -245,29 +225,12 @@ impl fmt::Display for Refusal {
 /// # std::io::Result::Ok(())
 /// ```
 pub fn write(mesh: &Mesh, out: &mut impl Write) -> std::io::Result<()> {
-    let mut out = BufWriter::new(out);
-    for position in &mesh.positions {
-        write_vertex(*position, &mut out)?;
-    }
-    for corners in mesh.faces.iter() {
-        write_face(corners, &mut out)?;
-    }
-    out.flush()
+    write::write(mesh, out)
 }
 
-fn write_vertex(position: Point, out: &mut impl Write) -> std::io::Result<()> {
-    out.write_all(b"v")?;
-    for x in position {
-        // `Digits` stands for results that do not exist; a coordinate must not turn into 0.
-        if x.is_nan() { out.write_all(b" NaN")? } else { write!(out, " {}", Digits(x))? }
-    }
-    out.write_all(b"\n")
-}
-
-fn write_face(corners: &[VertexId], out: &mut impl Write) -> std::io::Result<()> {
-    out.write_all(b"f")?;
-    for corner in corners {
-        write!(out, " {}", u64::from(corner.0) + 1)?;
-    }
-    out.write_all(b"\n")
+/// What [`write()`] leaves out of `mesh`, in sentences: channels other than one of texture
+/// coordinates (`st`, `uv`, or else the first face-varying one of two numbers) and one of
+/// colours (`color`, `displayColor`).
+pub fn omitted(mesh: &Mesh) -> Vec<String> {
+    write::omitted(mesh)
 }

@@ -1,87 +1,148 @@
-//! Triangle meshes as binary PLY, with normals and curvatures.
+//! PLY: cages in and out; triangle meshes are written by [`ply_out`](super::ply_out).
 //!
-//! Each vertex has these properties, in this order, little endian:
+//! ```text
+//! ply
+//! format ascii 1.0                    or binary_little_endian, binary_big_endian
+//! comment, obj_info ...               ignored
+//! element vertex 8
+//! property float x                    x, y, z of any type, in any order among others
+//! property uchar red                  other numbers are kept as vertex channels, see below
+//! element face 6
+//! property list uchar int vertex_indices    or vertex_index; any whole-number types
+//! property list uchar float texcoord        two numbers for each corner: face-varying `st`
+//! element edge 12                     other elements and properties are skipped and reported
+//! end_header
+//! ```
 //!
-//! | property | type | |
+//! Types are `char uchar short ushort int uint float double`, also as `int8 uint8 int16 uint16
+//! int32 uint32 float32 float64`. The header's lines end like its first one (LF, CRLF or CR). In
+//! the ascii form values may be spread over lines in any way. What follows the last element is
+//! reported.
+//!
+//! | properties | channel | |
 //! | --- | --- | --- |
-//! | `x`, `y`, `z` | `double` | position, in the units of the cage |
-//! | `nx`, `ny`, `nz` | `float` | unit normal |
-//! | `gauss_curvature` | `float` | K, in 1/length^2 |
-//! | `mean_curvature` | `float` | H, in 1/length; negative on convex bodies |
+//! | `red green blue [alpha]` | `color` | whole numbers are taken as fractions of their type's largest |
+//! | `s t`, `u v`, `texture_u texture_v` | `st` | |
+//! | `nx ny nz` | `normals` | |
+//! | `a_0 a_1 ...`, up to four | `a` | |
+//! | any other | its own name | one number |
 //!
-//! and each face the list `vertex_indices` of three `int` with a `uchar` count. These are the
-//! names and types that MeshLab and ParaView look for; both read `double` positions beside
-//! `float` normals. PLY has no standard name for curvature: general readers hand it on under
-//! the names above, Blender takes it as attributes, MeshLab and ParaView leave it out.
+//! Vertices and faces are counted from 0. Reading stops at the first fault.
 
-use std::io::{self, Write};
+use std::fmt;
+use std::io::Write;
 
-use crate::tessellate::TriangleMesh;
+use super::load::{Loaded, Naming, Notice};
+use crate::mesh::Mesh;
 
-/// Writes `mesh` as binary PLY. Writes many small pieces: give it something with a buffer.
+mod body;
+mod cage;
+mod channels;
+mod header;
+mod write;
+
+pub use header::Encoding;
+
+/// What a PLY file says.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Ply {
+    /// Its vertices and faces in order, and its channels.
+    pub mesh: Mesh,
+    /// What was skipped or completed, in sentences.
+    pub remarks: Vec<String>,
+}
+
+impl From<Ply> for Loaded {
+    fn from(Ply { mesh, remarks }: Ply) -> Self {
+        let notices = remarks.into_iter().map(Notice::Remark).collect();
+        Self { mesh, naming: Naming::FromZero, notices }
+    }
+}
+
+/// Why a file cannot be read: its first fault.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError {
+    /// Where it is.
+    pub place: Place,
+    /// The element and the number of the item in it, from 0, if it is not in the header.
+    pub item: Option<(String, usize)>,
+    /// What is wrong and what to do, in a sentence.
+    pub message: String,
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.item {
+            Some((element, k)) => write!(f, "{}, {element} {k}: {}", self.place, self.message),
+            None => write!(f, "{}: {}", self.place, self.message),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// A place in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line, from 1: of the header, or of an ascii file.
+    Line(usize),
+    /// The number of bytes before it, in a binary file.
+    Byte(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+        }
+    }
+}
+
+/// Reads a PLY file. Time and memory are linear in its length.
+///
+/// The mesh is not checked, but every face's numbers exist.
 ///
 /// # Errors
 ///
-/// What `out` reports; and `InvalidInput`, before anything is written, for more than 2^31
-/// vertices, since the indices of this format are signed.
-pub fn write(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
-    check_size(mesh.positions.len())?;
-    write_header(mesh, out)?;
-    let curvatures = mesh.gauss.iter().zip(&mesh.mean);
-    for ((p, n), (&gauss, &mean)) in mesh.positions.iter().zip(&mesh.normals).zip(curvatures) {
-        p.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
-        n.iter()
-            .chain([&gauss, &mean])
-            .try_for_each(|&x| out.write_all(&(x as f32).to_le_bytes()))?;
-    }
-    for triangle in &mesh.triangles {
-        out.write_all(&[3])?;
-        triangle.iter().try_for_each(|v| out.write_all(&v.to_le_bytes()))?;
-    }
-    Ok(())
+/// The first fault: of the header, a value that is not of its type, an index that no vertex has,
+/// or the file's end before its last element.
+///
+/// ```
+/// use evenlight::io::ply;
+///
+/// let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+///             property float z\nelement face 1\nproperty list uchar int vertex_indices\n\
+///             end_header\n0 0 0\n1 0 0\n0 1 .5\n3 0 1 2\n";
+/// let ply = ply::read(text.as_bytes())?;
+/// assert_eq!(ply.mesh.positions[2], [0.0, 1.0, 0.5]);
+///
+/// let error = ply::read(text.replace("3 0 1 2", "3 0 1 3").as_bytes()).unwrap_err();
+/// let expected = "line 13, face 0: a corner asks for vertex 3, but the file has 3";
+/// assert!(error.to_string().starts_with(expected));
+/// # Ok::<(), ply::ReadError>(())
+/// ```
+pub fn read(bytes: &[u8]) -> Result<Ply, ReadError> {
+    cage::read(bytes)
 }
 
-fn write_header(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
-    let (vertices, faces) = (mesh.positions.len(), mesh.triangles.len());
-    write!(
-        out,
-        "ply\n\
-         format binary_little_endian 1.0\n\
-         comment Evenlight: points of the limit surface with its normals and curvatures\n\
-         comment x y z in units of the cage; gauss_curvature K in 1/unit^2;\n\
-         comment mean_curvature H in 1/unit, negative on convex bodies\n\
-         element vertex {vertices}\n\
-         property double x\n\
-         property double y\n\
-         property double z\n\
-         property float nx\n\
-         property float ny\n\
-         property float nz\n\
-         property float gauss_curvature\n\
-         property float mean_curvature\n\
-         element face {faces}\n\
-         property list uchar int vertex_indices\n\
-         end_header\n"
-    )
+/// Writes `mesh` as PLY: positions and channels with 64 bits, colours of 8 bits as such, faces
+/// with 32-bit indices and, if there is a face-varying `st`, `texcoord`. [`omitted`] tells what
+/// this leaves out.
+///
+/// The same mesh always gives the same bytes, and [`read`] returns it, except that NaN is not
+/// equal to itself in ascii and that equal texture coordinates of a vertex become one.
+///
+/// # Errors
+///
+/// Those of `out`.
+pub fn write(mesh: &Mesh, encoding: Encoding, out: &mut impl Write) -> std::io::Result<()> {
+    write::write(mesh, encoding, out)
 }
 
-/// Whether the last index fits into a signed 32-bit number.
-fn check_size(num_vertices: usize) -> io::Result<()> {
-    if num_vertices <= 1 << 31 {
-        return Ok(());
-    }
-    let message = format!("{num_vertices} vertices are too many for PLY (at most 2^31)");
-    Err(io::Error::new(io::ErrorKind::InvalidInput, message))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn indices_must_fit_into_signed_numbers() {
-        assert!(check_size(1 << 31).is_ok());
-        let err = check_size((1 << 31) + 1).unwrap_err();
-        assert_eq!(err.kind(), io::ErrorKind::InvalidInput);
-    }
+/// What [`write()`] leaves out of `mesh`, in sentences: tags, varying channels, face-varying ones
+/// but one of two numbers, channels whose names are taken.
+pub fn omitted(mesh: &Mesh) -> Vec<String> {
+    write::omitted(mesh)
 }

@@ -28,20 +28,26 @@ pub enum CreaseMethod {
 }
 
 /// Which parts of a face-varying channel are interpolated linearly instead of smoothly.
+///
+/// At a vertex the corners with one value are one vertex of the channel; seams are where values
+/// differ, and they and the cage's boundary are boundaries of the channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FaceVaryingRule {
-    /// None: seams and corners are smooth.
+    /// None: seams are smooth curves, also where a single face has a value.
     None,
-    /// Corners of the channel that only one face has.
+    /// Values that a single face has are sharp.
     CornersOnly,
-    /// These, and the vertices where more than two seams meet, and darts and concave corners.
+    /// These, all values where three or more meet, and both of two of which one is broken by a
+    /// seam or an infinitely sharp crease. Of two values of which one is sharp for some
+    /// refinements, by creases, the other is so too.
     #[default]
     CornersPlus1,
-    /// These, and all seams' ends.
+    /// These, the ends of seams inside the cage (darts), and both of two values of which one is of
+    /// a single face, so that its neighbour has a concave corner.
     CornersPlus2,
-    /// All seams.
+    /// All seams and boundaries are linear.
     Boundaries,
-    /// Everything.
+    /// Everything is linear: bilinear over every quad.
     All,
 }
 

@@ -14,6 +14,7 @@ mod subdominant;
 mod tables;
 
 pub(crate) use fan::{FanLimit, rules as fan_rules};
+pub(crate) use guided::{guide_monomials, sampled_guide};
 pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;
 
@@ -126,7 +127,7 @@ impl SchemeKind {
     }
 
     /// The degree of the rings of guided subdivision.
-    fn guided_degree(self) -> Option<usize> {
+    pub(crate) fn guided_degree(self) -> Option<usize> {
         match self {
             Self::Guided3 => Some(3),
             Self::Guided4 => Some(4),

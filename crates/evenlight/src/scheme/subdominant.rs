@@ -114,6 +114,21 @@ impl Subdominant {
         }
     }
 
+    /// The vectors [a, b] such that the part of a net that shrinks by lambda is a x + b y, x and y
+    /// those of the characteristic net.
+    pub(crate) fn tangential(&self, net: &[Vector]) -> [Vector; 2] {
+        let [first, second] = self.tangents(net);
+        match &self.part {
+            Part::Fourier { .. } => [first.map(|x| 2.0 * x), second.map(|x| -2.0 * x)],
+            Part::Linear { characteristic, nodes: [_, control] } => {
+                // first = beta is along line 0, the x-axis; second = alpha along line -1.
+                let [x, y, _] = characteristic[*control];
+                let across = |k: usize| (second[k] - x * first[k]) / y;
+                [first, [0, 1, 2].map(across)]
+            }
+        }
+    }
+
     /// Removes the part of coordinate `k` of `net` that shrinks by lambda.
     pub(crate) fn remove_from_coordinate(&self, k: usize, net: &mut [Vector]) {
         match &self.part {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+pub(super) use crate::io::excerpt::excerpt;
 use crate::mesh::{MAX_LISTED, one_per_line};
 
 /// Why a file cannot be read: its faulty lines.
@@ -48,6 +49,8 @@ impl fmt::Display for LineFault {
 pub enum Element {
     /// A vertex.
     Vertex(u64),
+    /// A texture coordinate.
+    Texture(u64),
     /// A face.
     Face(u64),
 }
@@ -56,6 +59,7 @@ impl fmt::Display for Element {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Vertex(number) => write!(f, "vertex {number}"),
+            Self::Texture(number) => write!(f, "texture coordinate {number}"),
             Self::Face(number) => write!(f, "face {number}"),
         }
     }
@@ -92,13 +96,15 @@ pub enum Reason {
         /// The word.
         text: String,
     },
-    /// A vertex has fewer than three coordinates.
-    #[error("`{text}` has {found} of the 3 coordinates: add those that are missing")]
+    /// A vertex has fewer than three coordinates, or a texture coordinate none.
+    #[error("`{text}` has {found} of the {needed} coordinates: add those that are missing")]
     TooFewCoordinates {
         /// The line.
         text: String,
         /// How many there are, 0 to 2.
         found: usize,
+        /// How many there must be.
+        needed: usize,
     },
     /// A corner of a face has not the form of one.
     #[error("`{text}` is not a corner: correct it, as in 1, 1/2, 1//3 or 1/2/3")]
@@ -143,6 +149,61 @@ pub enum Reason {
         index: i64,
         /// How many come before it.
         count: usize,
+    },
+    /// A texture coordinate or colour is infinite or NaN.
+    #[error("`{text}` is not finite: correct it, as in 0.25")]
+    NotFinite {
+        /// The word.
+        text: String,
+    },
+    /// A line `t` does not have the form of a tag.
+    #[error(
+        "`t {name}` is not a tag: write `t NAME ints/floats/strings`, as in \
+         `t crease 2/1/0 4 5 2.5`, and then as many of each, or delete the line"
+    )]
+    TagForm {
+        /// The name of the tag.
+        name: String,
+    },
+    /// A tag has the wrong number of arguments.
+    #[error("the tag `{name}` takes {expected}: correct the counts and the arguments")]
+    TagArguments {
+        /// The name of the tag.
+        name: String,
+        /// What it takes.
+        expected: &'static str,
+    },
+    /// An argument of a tag is not what it takes.
+    #[error("`{text}` is no argument of the tag `{name}`: write {expected}")]
+    TagValue {
+        /// The name of the tag.
+        name: String,
+        /// The argument.
+        text: String,
+        /// What would be one.
+        expected: String,
+    },
+    /// A tag asks for a vertex or face that does not exist.
+    #[error(
+        "the tag asks for {what} {index}, but the file has {count}, and tags count from 0: \
+         correct the number"
+    )]
+    TagIndex {
+        /// "vertex" or "face".
+        what: &'static str,
+        /// The number, from 0.
+        index: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A tag edits the surface at a level of refinement.
+    #[error(
+        "`{name}` is a hierarchical edit, which is not supported: apply it in the program that \
+         wrote it, or delete the line"
+    )]
+    HierarchicalEdit {
+        /// The name of the tag.
+        name: String,
     },
     /// There is more than can be numbered with 32 bits.
     #[error("there are more than {limit} {what}: split the file")]
@@ -189,31 +250,6 @@ impl Faults {
     }
 }
 
-/// `bytes` as text for a message: 40 characters at most, none of which could upset a terminal.
-pub(super) fn excerpt(bytes: &[u8]) -> String {
-    const MAX_CHARS: usize = 40;
-    // A character has up to four bytes; more of them tell that something was left out.
-    let head = &bytes[..bytes.len().min(4 * (MAX_CHARS + 1))];
-    let text = String::from_utf8_lossy(head);
-    let mut shown: String = text.chars().take(MAX_CHARS).map(printable).collect();
-    if text.chars().nth(MAX_CHARS).is_some() {
-        shown += "...";
-    }
-    shown
-}
-
-fn printable(c: char) -> char {
-    match c {
-        '\t' | '\n' | '\r' => ' ',
-        // Without width, or turning the direction of writing.
-        '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => {
-            char::REPLACEMENT_CHARACTER
-        }
-        c if c.is_control() => char::REPLACEMENT_CHARACTER,
-        c => c,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -235,15 +271,5 @@ mod tests {
         assert_eq!(lines, (0..20).collect::<Vec<_>>());
         assert_eq!(error.num_more, 80);
         assert_eq!(error.to_string().lines().count(), 22);
-    }
-
-    #[test]
-    fn excerpts_are_short_and_harmless() {
-        assert_eq!(excerpt(b"v 1\t2"), "v 1 2");
-        assert_eq!(excerpt(b"\x1b[31m\xff"), "\u{fffd}[31m\u{fffd}");
-        assert_eq!(excerpt("\u{202e}a".as_bytes()), "\u{fffd}a");
-        assert_eq!(excerpt(&[b'x'; 40]), "x".repeat(40));
-        assert_eq!(excerpt(&[b'x'; 41]), "x".repeat(40) + "...");
-        assert_eq!(excerpt("\u{1f600}".repeat(50).as_bytes()), "\u{1f600}".repeat(40) + "...");
     }
 }

@@ -2,10 +2,12 @@
 
 use std::collections::HashMap;
 
+use super::channels::Channels;
 use super::fault::{Channel, Element, Faults, LineFault, ReadError, Reason, excerpt};
+use super::tag::{self, Outcome};
 use super::words::Words;
 use super::{Obj, Source, UnknownTag};
-use crate::mesh::{Faces, Mesh, VertexId};
+use crate::mesh::{Faces, Mesh, Tags, VertexId};
 use crate::point::Point;
 
 /// How many there may be of each.
@@ -30,7 +32,11 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Obj, ReadError> {
     let mut reader = Reader::new(bytes, limits);
     let complete = reader.read_lines();
     // What asked for later lines can only be judged if all lines were seen.
-    let late = if complete { reader.late_faults() } else { Faults::default() };
+    let late = if complete {
+        reader.late_faults().merge(reader.late_tag_faults())
+    } else {
+        Faults::default()
+    };
     std::mem::take(&mut reader.faults).merge(late).into_result()?;
     Ok(reader.into_obj())
 }
@@ -42,15 +48,17 @@ struct Reader<'a> {
     limits: Limits,
     positions: Vec<Point>,
     faces: Faces,
-    num_textures: usize,
     num_normals: usize,
+    channels: Channels,
+    tags: Tags,
     source: Source,
-    tags: Tags<'a>,
+    unknown: UnknownTags<'a>,
     /// The corners with a number that nothing had yet, to be looked at again at the end.
     forward: Vec<Forward>,
     faults: Faults,
-    /// The corners of the face being read.
+    /// The corners of the face being read, and their texture coordinates.
     corners: Vec<VertexId>,
+    textures: Vec<Option<u32>>,
 }
 
 /// A corner that asks for something later.
@@ -69,13 +77,15 @@ impl<'a> Reader<'a> {
             limits,
             positions: Vec::new(),
             faces: Faces::default(),
-            num_textures: 0,
             num_normals: 0,
-            source: Source::default(),
+            channels: Channels::default(),
             tags: Tags::default(),
+            source: Source::default(),
+            unknown: UnknownTags::default(),
             forward: Vec::new(),
             faults: Faults::default(),
             corners: Vec::new(),
+            textures: Vec::new(),
         }
     }
 
@@ -111,39 +121,74 @@ impl<'a> Reader<'a> {
                 let element = Element::Face(self.faces.len() as u64 + 1);
                 self.face(line).map_err(fault(Some(element)))?;
             }
-            b"vt" => self.num_textures += 1,
+            b"vt" => {
+                let element = Element::Texture(self.channels.num_textures() as u64 + 1);
+                self.texture(tag).map_err(fault(Some(element)))?;
+            }
+            b"t" => self.tag(tag, line).map_err(fault(None))?,
             b"vn" => self.num_normals += 1,
             b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" => {}
-            _ => self.tags.count(tag, line),
+            _ => self.unknown.count(tag, line),
         }
         Ok(())
     }
 
     fn vertex(&mut self, tag: &[u8], line: u32) -> Result<(), Reason> {
         room("vertices", self.positions.len() + 1, self.limits.vertices)?;
-        let position = self.coordinates(self.words.position() - tag.len());
+        let numbers = self.numbers_of_line::<6>(self.words.position() - tag.len(), 3);
         // A faulty vertex keeps its place, so that the faces' numbers stay right.
-        self.positions.push(position.clone().unwrap_or_default());
+        let [x, y, z, ..] = numbers.as_ref().map_or([0.0; 6], |numbers| numbers.values);
+        self.positions.push([x, y, z]);
         self.source.vertex_lines.push(line);
-        position.map(drop)
+        let numbers = numbers?;
+        if numbers.found == 6 {
+            numbers.refuse_non_finite()?;
+            self.channels.add_color(numbers.values);
+        }
+        Ok(())
     }
 
-    /// The coordinates on a line whose tag stands at `start`.
-    fn coordinates(&mut self, start: usize) -> Result<Point, Reason> {
-        let mut position = [0.0; 3];
-        let mut found = 0;
+    fn texture(&mut self, tag: &[u8]) -> Result<(), Reason> {
+        room("texture coordinates", self.channels.num_textures() + 1, self.limits.corners)?;
+        let numbers = self.numbers_of_line::<3>(self.words.position() - tag.len(), 1);
+        self.channels.add_texture(numbers.as_ref().map_or([0.0; 3], |numbers| numbers.values));
+        numbers?.refuse_non_finite()
+    }
+
+    /// The first `N` numbers on a line whose tag stands at `start`, of which there must be
+    /// `needed`; all words must be numbers.
+    fn numbers_of_line<const N: usize>(
+        &mut self,
+        start: usize,
+        needed: usize,
+    ) -> Result<Numbers<'a, N>, Reason> {
+        let mut numbers = Numbers { values: [0.0; N], found: 0, non_finite: None };
         for word in &mut self.words {
             let x = number(word).ok_or_else(|| Reason::NotANumber { text: excerpt(word) })?;
-            if let Some(coordinate) = position.get_mut(found) {
-                *coordinate = x;
+            if let Some(value) = numbers.values.get_mut(numbers.found) {
+                *value = x;
+                // The positions are judged with the mesh, as they can also come from elsewhere.
+                if !x.is_finite() && numbers.found >= N - 3 {
+                    numbers.non_finite = Some(word);
+                }
             }
-            found += 1;
+            numbers.found += 1;
         }
-        if found < 3 {
+        if numbers.found < needed {
             let text = excerpt(self.bytes[start..self.words.position()].trim_ascii_end());
-            return Err(Reason::TooFewCoordinates { text, found });
+            return Err(Reason::TooFewCoordinates { text, found: numbers.found, needed });
         }
-        Ok(position)
+        Ok(numbers)
+    }
+
+    fn tag(&mut self, tag: &[u8], line: u32) -> Result<(), Reason> {
+        let start = self.words.position() - tag.len();
+        let tags = tag::Line::read(&mut self.words)?;
+        match tags.apply(&mut self.tags)? {
+            Outcome::Kept => self.source.end_tags(line, &self.tags),
+            Outcome::Ignored => self.unknown.count(&self.bytes[start..tags.name_end], line),
+        }
+        Ok(())
     }
 
     fn face(&mut self, line: u32) -> Result<(), Reason> {
@@ -155,6 +200,7 @@ impl<'a> Reader<'a> {
         }
         let num_corners = self.faces.all_corners().len() + self.corners.len();
         room("corners", num_corners, self.limits.corners)?;
+        self.channels.add_corners(self.faces.all_corners().len(), &self.textures);
         self.faces.push(self.corners.iter().copied());
         self.source.face_lines.push(line);
         corners
@@ -162,6 +208,7 @@ impl<'a> Reader<'a> {
 
     fn read_corners(&mut self, line: u32) -> Result<(), Reason> {
         self.corners.clear();
+        self.textures.clear();
         while let Some(word) = self.words.next() {
             let corner = corner(word).ok_or_else(|| Reason::NotACorner { text: excerpt(word) })?;
             let forward = self.reaches_forward(&corner, word)?;
@@ -169,7 +216,8 @@ impl<'a> Reader<'a> {
                 let at = self.words.position() - word.len();
                 self.forward.push(Forward { line, face: self.faces.len() as u32, at });
             }
-            self.corners.push(self.vertex_of(&corner));
+            self.corners.push(VertexId(id(corner[0].unwrap_or(0), self.positions.len())));
+            self.textures.push(corner[1].map(|index| id(index, self.channels.num_textures())));
         }
         Ok(())
     }
@@ -197,18 +245,10 @@ impl<'a> Reader<'a> {
         let [vertex, texture, normal] = *corner;
         let numbers = [
             (Channel::Vertex, vertex, self.positions.len()),
-            (Channel::Texture, texture, self.num_textures),
+            (Channel::Texture, texture, self.channels.num_textures()),
             (Channel::Normal, normal, self.num_normals),
         ];
         numbers.into_iter().filter_map(|(channel, index, count)| Some((channel, index?, count)))
-    }
-
-    /// The vertex of a corner that does not reach back too far; one that no mesh has if its
-    /// number is too large for a mesh.
-    fn vertex_of(&self, corner: &Corner) -> VertexId {
-        let index = corner[0].unwrap_or(0);
-        let id = if index < 0 { self.positions.len() as i64 + index } else { index - 1 };
-        VertexId(u32::try_from(id).unwrap_or(u32::MAX))
     }
 
     /// The faults of corners that asked for something later which did not come.
@@ -236,10 +276,64 @@ impl<'a> Reader<'a> {
         Some(Reason::IndexTooLarge { text: excerpt(word), channel, index, count })
     }
 
-    fn into_obj(self) -> Obj {
-        let mesh = Mesh { positions: self.positions, faces: self.faces, ..Mesh::default() };
-        Obj { mesh, source: self.source, unknown_tags: self.tags.list }
+    /// The faults of tags that asked for something which did not come.
+    fn late_tag_faults(&self) -> Faults {
+        let (num_vertices, num_faces) = (self.positions.len(), self.faces.len());
+        let vertex = |id: VertexId| ("vertex", id.0, num_vertices);
+        let tags = &self.tags;
+        let creases = tags.creases.iter().map(|c| c.edge[0].max(c.edge[1])).map(vertex);
+        let corners = tags.corners.iter().map(|c| c.vertex).map(vertex);
+        let holes = tags.holes.iter().map(|f| ("face", f.0, num_faces));
+        let lines = &self.source.tag_lines;
+        let creases = late_tag_faults(creases.zip(&lines.creases));
+        let corners = late_tag_faults(corners.zip(&lines.corners));
+        creases.merge(corners).merge(late_tag_faults(holes.zip(&lines.holes)))
     }
+
+    fn into_obj(self) -> Obj {
+        let num_corners = self.faces.all_corners().len();
+        let (primvars, remarks) = self.channels.finish(self.positions.len(), num_corners);
+        let mesh = Mesh { positions: self.positions, faces: self.faces, tags: self.tags, primvars };
+        Obj { mesh, source: self.source, unknown_tags: self.unknown.list, remarks }
+    }
+}
+
+/// The first numbers of a line.
+struct Numbers<'a, const N: usize> {
+    values: [f64; N],
+    /// How many numbers there are, also more than `N`.
+    found: usize,
+    /// One of the last three of `values` that is infinite or NaN.
+    non_finite: Option<&'a [u8]>,
+}
+
+impl<const N: usize> Numbers<'_, N> {
+    fn refuse_non_finite(&self) -> Result<(), Reason> {
+        self.non_finite.map_or(Ok(()), |word| Err(Reason::NotFinite { text: excerpt(word) }))
+    }
+}
+
+/// The faults of the numbers that are not below how many things there are; one per line.
+fn late_tag_faults<'a>(
+    asked: impl Iterator<Item = ((&'static str, u32, usize), &'a u32)>,
+) -> Faults {
+    let mut faults = Faults::default();
+    let mut last_line = None;
+    for ((what, index, count), &line) in asked {
+        if index as usize >= count && last_line != Some(line) {
+            let reason = Reason::TagIndex { what, index, count };
+            faults.push(LineFault { line, element: None, reason });
+            last_line = Some(line);
+        }
+    }
+    faults
+}
+
+/// What the number of a corner asks for, counted from 0, if it does not reach back too far and
+/// there are `count` so far; one that nothing has if the number is too large.
+fn id(index: i64, count: usize) -> u32 {
+    let id = if index < 0 { count as i64 + index } else { index - 1 };
+    u32::try_from(id).unwrap_or(u32::MAX)
 }
 
 /// Whether `count` things are no more than may be.
@@ -249,13 +343,13 @@ fn room(what: &'static str, count: usize, limit: usize) -> Result<(), Reason> {
 
 /// The tags that are not known.
 #[derive(Default)]
-struct Tags<'a> {
+struct UnknownTags<'a> {
     /// Where each tag stands in `list`.
     places: HashMap<&'a [u8], usize>,
     list: Vec<UnknownTag>,
 }
 
-impl<'a> Tags<'a> {
+impl<'a> UnknownTags<'a> {
     fn count(&mut self, tag: &'a [u8], line: u32) {
         let place = *self.places.entry(tag).or_insert(self.list.len());
         if place == self.list.len() {

@@ -73,10 +73,27 @@ pub(crate) fn rules(n: usize, degree: usize) -> Option<Rules> {
     })
 }
 
-/// (i,j) with 0 < i + j and i, j <= 5, by i + j; the first five are the expansion.
+/// (i,j) with 0 < i + j and i, j <= 5, by i + j: the last nodes of every sector; the first five are
+/// the expansion.
 fn monomials() -> Vec<(usize, usize)> {
     let of_degree = |s: usize| (0..=5).rev().filter(move |&i| i <= s && s - i <= 5);
     (1..=10).flat_map(|s| of_degree(s).map(move |i| (i, s - i))).collect()
+}
+
+/// The powers of a piece of a guide, in the order of the nodes.
+pub(crate) fn guide_monomials() -> Vec<(usize, usize)> {
+    monomials()
+}
+
+/// For every power of [`guide_monomials`] the patch of bi-`degree` 3 to 6 that samples it, in jets at
+/// the corners, along the two coordinates of a map.
+pub(crate) fn sampled_guide(map: &[Vec<f64>; 2], degree: usize) -> Vec<Vec<f64>> {
+    let count = match degree {
+        6 => 4,
+        3 => 2,
+        _ => 3,
+    };
+    sampled(map, degree, count, &monomials())
 }
 
 /// The rows of the coefficients a_ij on a c-net: C(5,i) C(5,j) times the differences of p_ij,

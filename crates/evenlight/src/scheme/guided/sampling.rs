@@ -39,13 +39,14 @@ pub(super) fn sampled(
     sums
 }
 
-/// The jet of a bi-3 patch at a corner, `end` saying whether u, v are 1 there.
+/// The jet of a patch at a corner, `end` saying whether u, v are 1 there.
 fn jet_at(patch: &Square, count: usize, end: [bool; 2]) -> Square {
     let taylor = |end: bool, b: &[f64]| match end {
         false => taylor_at_start(b, count),
         true => taylor_at_end(b, count),
     };
-    in_both(patch, 4, |b| taylor(end[0], b), |b| taylor(end[1], b))
+    let order = (1..).find(|k| k * k >= patch.len()).expect("numbers have no end");
+    in_both(patch, order, |b| taylor(end[0], b), |b| taylor(end[1], b))
 }
 
 /// The BB coefficients next to a corner from the jet there.

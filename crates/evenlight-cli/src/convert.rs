@@ -1,0 +1,74 @@
+//! `evenlight convert`: a cage from one kind of file to another.
+
+use std::io;
+
+use clap::{Args, ValueEnum};
+use evenlight::Mesh;
+use evenlight::io::load::Format;
+use evenlight::io::ply::Encoding;
+use evenlight::io::{obj, ply};
+
+use crate::error::{Failure, warn};
+use crate::input::{self, Source};
+use crate::output::Target;
+
+/// Arguments of `evenlight convert`.
+#[derive(Args, Debug)]
+pub struct ConvertArgs {
+    /// The cage to read: .obj or .ply, or `-` for stdin; it need not be fit for a surface
+    cage: Source,
+
+    /// The file to write: .obj or .ply, or `-` for stdout
+    output: Target,
+
+    /// Format of the output, if the file's extension does not tell
+    #[arg(long, value_enum)]
+    format: Option<CageFormat>,
+
+    /// PLY as text instead of bytes
+    #[arg(long)]
+    ascii: bool,
+}
+
+/// Files that hold cages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CageFormat {
+    /// Wavefront OBJ with the tags of OpenSubdiv's shapes
+    Obj,
+    /// PLY
+    Ply,
+}
+
+impl From<CageFormat> for Format {
+    fn from(format: CageFormat) -> Self {
+        match format {
+            CageFormat::Obj => Self::Obj,
+            CageFormat::Ply => Self::Ply,
+        }
+    }
+}
+
+/// Runs `evenlight convert`.
+pub fn run(args: &ConvertArgs) -> Result<(), Failure> {
+    let format = Format::from(args.output.format(args.format)?);
+    let loaded = input::load(&args.cage)?;
+    for notice in &loaded.notices {
+        warn(format_args!("{}: {notice}", args.cage));
+    }
+    write(&loaded.mesh, format, args.ascii, &args.output)
+}
+
+/// Writes a cage; what the format cannot hold is said on stderr.
+pub fn write(mesh: &Mesh, format: Format, ascii: bool, target: &Target) -> Result<(), Failure> {
+    let encoding = if ascii { Encoding::Ascii } else { Encoding::LittleEndian };
+    let (omitted, written): (_, Result<(), Failure>) = match format {
+        Format::Obj => (obj::omitted(mesh), target.write(|mut out| obj::write(mesh, &mut out))),
+        Format::Ply => {
+            let write = |mut out: &mut dyn io::Write| ply::write(mesh, encoding, &mut out);
+            (ply::omitted(mesh), target.write(write))
+        }
+    };
+    written?;
+    omitted.iter().for_each(|sentence| warn(format_args!("{target}: {sentence}")));
+    Ok(())
+}

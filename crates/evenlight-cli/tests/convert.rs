@@ -1,0 +1,79 @@
+//! `evenlight convert`, and that every command takes every kind of cage file.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+mod common;
+
+use std::fs;
+
+use common::{CONE, CUBE, PILLOW, arg, cage, code, evenlight, run, run_on, stderr, stdout};
+
+#[test]
+fn a_cage_comes_back_from_every_format_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    for name in [PILLOW, CONE] {
+        let original = cage(name);
+        let obj = path("a.obj");
+        assert_eq!(stdout(&run(&["convert", arg(&original), arg(&obj)])), "");
+        for (other, flags) in [("a.ply", &[][..]), ("b.ply", &["--ascii"])] {
+            let (other, back) = (path(other), path("back.obj"));
+            stdout(&run(&[&["convert", arg(&obj), arg(&other)], flags].concat()));
+            stdout(&run(&["convert", arg(&other), arg(&back)]));
+            assert_eq!(fs::read(&back).unwrap(), fs::read(&obj).unwrap());
+        }
+    }
+}
+
+#[test]
+fn every_command_reads_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj = cage(PILLOW);
+    let ply = folder.path().join("pillow.ply");
+    stdout(&run(&["convert", arg(&obj), arg(&ply)]));
+    for command in ["check", "analyze", "q"] {
+        let expected = stdout(&run(&[command, arg(&obj), "--json"]));
+        let found = stdout(&run(&[command, arg(&ply), "--json"]));
+        assert!(!expected.is_empty());
+        assert_eq!(found.replace(arg(&ply), arg(&obj)), expected, "{command}");
+    }
+    let mesh = |path| run(&["mesh", arg(path), "-o", "-", "--format", "obj"]);
+    assert_eq!(stdout(&mesh(&ply)), stdout(&mesh(&obj)));
+}
+
+#[test]
+fn stdin_is_recognised_by_its_content() {
+    let ply = run_on(CUBE, &["convert", "-", "-", "--format", "ply", "--ascii"]);
+    let text = stdout(&ply);
+    assert!(text.starts_with("ply\nformat ascii 1.0\n"), "{text}");
+    let back = run_on(&text, &["convert", "-", "-", "--format", "obj"]);
+    assert_eq!(stdout(&back), CUBE);
+    let bytes = run_on(CUBE, &["convert", "-", "-", "--format", "ply"]).stdout;
+    let output = evenlight().args(["check", "-"]).write_stdin(bytes).output().unwrap();
+    assert!(stdout(&output).starts_with("stdin: can be used"));
+}
+
+#[test]
+fn what_a_format_cannot_hold_is_said() {
+    let tagged = CUBE.to_owned() + "t crease 2/1/0 0 1 2\n";
+    let output = run_on(&tagged, &["convert", "-", "-", "--format", "ply"]);
+    assert_eq!(code(&output), 0);
+    let warning = "warning: stdout: PLY has no place for creases, corners, holes and rules";
+    assert!(stderr(&output).starts_with(warning), "{}", stderr(&output));
+    let kept = run_on(&tagged, &["convert", "-", "-", "--format", "obj"]);
+    assert_eq!(stdout(&kept), tagged);
+}
+
+#[test]
+fn faults_are_told_in_the_terms_of_the_file() {
+    let output = run_on("ply\nformat ascii 1.0\nelement vertex 1\n", &["check", "-"]);
+    assert_eq!(code(&output), 1);
+    assert_eq!(
+        stderr(&output),
+        "error: stdin: line 3: the header has no end: add the line `end_header`\n"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(&["convert", arg(&cage(CONE)), arg(&folder.path().join("a.stl"))]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("it can be .obj, .ply"), "{}", stderr(&output));
+}

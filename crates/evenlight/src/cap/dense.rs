@@ -1,0 +1,329 @@
+//! Small dense linear algebra: Householder QR with column pivoting, and least squares under linear
+//! conditions by it.
+//!
+//! Plain loops in a fixed order, so that caps have the same bits everywhere.
+
+use std::ops::{Index, IndexMut};
+
+/// A matrix, stored by rows.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Matrix {
+    rows: usize,
+    columns: usize,
+    entries: Vec<f64>,
+}
+
+impl Matrix {
+    pub(super) fn zeros(rows: usize, columns: usize) -> Self {
+        Self { rows, columns, entries: vec![0.0; rows * columns] }
+    }
+
+    pub(super) fn from_rows(columns: usize, rows: &[Vec<f64>]) -> Self {
+        debug_assert!(rows.iter().all(|row| row.len() == columns));
+        Self { rows: rows.len(), columns, entries: rows.concat() }
+    }
+
+    pub(super) fn num_rows(&self) -> usize {
+        self.rows
+    }
+
+    pub(super) fn num_columns(&self) -> usize {
+        self.columns
+    }
+
+    pub(super) fn row(&self, i: usize) -> &[f64] {
+        &self.entries[self.columns * i..self.columns * (i + 1)]
+    }
+
+    fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.entries[self.columns * i..self.columns * (i + 1)]
+    }
+
+    pub(super) fn transposed(&self) -> Self {
+        let mut result = Self::zeros(self.columns, self.rows);
+        for (i, j) in (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| (i, j))) {
+            result[(j, i)] = self[(i, j)];
+        }
+        result
+    }
+
+    /// The rows `range`.
+    pub(super) fn select_rows(&self, range: std::ops::Range<usize>) -> Self {
+        let entries = self.entries[self.columns * range.start..self.columns * range.end].to_vec();
+        Self { rows: range.len(), columns: self.columns, entries }
+    }
+
+    /// The columns `range`.
+    pub(super) fn select_columns(&self, range: std::ops::Range<usize>) -> Self {
+        let rows: Vec<Vec<f64>> =
+            (0..self.rows).map(|i| self.row(i)[range.clone()].to_vec()).collect();
+        Self::from_rows(range.len(), &rows)
+    }
+
+    /// `self * other`.
+    pub(super) fn times(&self, other: &Self) -> Self {
+        debug_assert_eq!(self.columns, other.rows);
+        let mut result = Self::zeros(self.rows, other.columns);
+        for i in 0..self.rows {
+            for (k, &w) in self.row(i).iter().enumerate().filter(|&(_, &w)| w != 0.0) {
+                add_to(result.row_mut(i), w, other.row(k));
+            }
+        }
+        result
+    }
+
+    /// `self += w * other`.
+    pub(super) fn add(&mut self, w: f64, other: &Self) {
+        debug_assert_eq!((self.rows, self.columns), (other.rows, other.columns));
+        add_to(&mut self.entries, w, &other.entries);
+    }
+}
+
+impl Index<(usize, usize)> for Matrix {
+    type Output = f64;
+
+    fn index(&self, (i, j): (usize, usize)) -> &f64 {
+        &self.entries[self.columns * i + j]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Matrix {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
+        &mut self.entries[self.columns * i + j]
+    }
+}
+
+/// `sum += w * row`.
+fn add_to(sum: &mut [f64], w: f64, row: &[f64]) {
+    sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += w * x);
+}
+
+/// A P = Q R, with the columns in the order that brings the largest remaining one to the front.
+pub(super) struct Qr {
+    /// The rows of R, `rank` of them, in pivoted order of columns.
+    r: Matrix,
+    /// The vectors of the reflections, from their own row on.
+    reflections: Vec<Vec<f64>>,
+    /// The column of A at each place.
+    order: Vec<usize>,
+    rank: usize,
+}
+
+/// Columns shorter than this part of the longest are rounding: conditions here are either
+/// independent with pivots above 1e-4 or repeat others.
+const DEPENDENT: f64 = 1e-10;
+
+impl Qr {
+    pub(super) fn new(mut a: Matrix) -> Self {
+        let (m, n) = (a.rows, a.columns);
+        let mut order: Vec<usize> = (0..n).collect();
+        let mut reflections = Vec::new();
+        let mut first = 0.0;
+        for k in 0..m.min(n) {
+            let sizes = squared_sizes(&a, k);
+            let pivot = (k..n).fold(k, |best, j| if sizes[j] > sizes[best] { j } else { best });
+            first = if k == 0 { sizes[pivot] } else { first };
+            if sizes[pivot] <= DEPENDENT * DEPENDENT * first {
+                break;
+            }
+            swap_columns(&mut a, k, pivot);
+            order.swap(k, pivot);
+            let v = reflection(&(k..m).map(|i| a[(i, k)]).collect::<Vec<_>>());
+            reflect(&v, k, &mut a);
+            reflections.push(v);
+        }
+        let rank = reflections.len();
+        Self { r: a.select_rows(0..rank), reflections, order, rank }
+    }
+
+    /// Q^T b.
+    fn turned(&self, mut b: Matrix) -> Matrix {
+        self.reflections.iter().enumerate().for_each(|(k, v)| reflect(v, k, &mut b));
+        b
+    }
+
+    /// Q b.
+    fn turned_back(&self, mut b: Matrix) -> Matrix {
+        self.reflections.iter().enumerate().rev().for_each(|(k, v)| reflect(v, k, &mut b));
+        b
+    }
+
+    /// The x of least |A x - b|, column by column; entries that do not matter are zero.
+    pub(super) fn least_squares(&self, b: Matrix) -> Matrix {
+        let turned = self.turned(b);
+        let mut x = Matrix::zeros(self.order.len(), turned.columns);
+        for k in (0..self.rank).rev() {
+            let mut row = turned.row(k).to_vec();
+            for j in k + 1..self.rank {
+                add_to(&mut row, -self.r[(k, j)], x.row(self.order[j]));
+            }
+            let pivot = self.r[(k, k)];
+            row.iter_mut().for_each(|x| *x /= pivot);
+            x.row_mut(self.order[k]).copy_from_slice(&row);
+        }
+        x
+    }
+
+    /// Of the conditions A^T x = b, A having as many rows as x: the x of least length, if they do
+    /// not contradict each other, and a basis of all x with A^T x = 0, as columns.
+    pub(super) fn solutions(&self, rows: usize, b: &Matrix) -> (Matrix, Matrix) {
+        // R^T y = P^T b from the top down; later rows of b repeat earlier ones.
+        let mut y = Matrix::zeros(rows, b.columns);
+        for k in 0..self.rank {
+            let mut row = b.row(self.order[k]).to_vec();
+            for j in 0..k {
+                add_to(&mut row, -self.r[(j, k)], y.row(j));
+            }
+            let pivot = self.r[(k, k)];
+            row.iter_mut().for_each(|x| *x /= pivot);
+            y.row_mut(k).copy_from_slice(&row);
+        }
+        let mut rest = Matrix::zeros(rows, rows - self.rank);
+        (0..rows - self.rank).for_each(|k| rest[(self.rank + k, k)] = 1.0);
+        (self.turned_back(y), self.turned_back(rest))
+    }
+}
+
+/// R of A = Q R without pivoting, with no more rows than columns: |R x| = |A x| for all x.
+pub(super) fn triangle(mut a: Matrix) -> Matrix {
+    let steps = a.rows.min(a.columns);
+    for k in 0..steps {
+        let v = reflection(&(k..a.rows).map(|i| a[(i, k)]).collect::<Vec<_>>());
+        reflect(&v, k, &mut a);
+    }
+    a.select_rows(0..steps)
+}
+
+/// The squared lengths of all columns from row `k` on.
+fn squared_sizes(a: &Matrix, k: usize) -> Vec<f64> {
+    let mut sizes = vec![0.0; a.columns];
+    for i in k..a.rows {
+        sizes.iter_mut().zip(a.row(i)).for_each(|(sum, x)| *sum += x * x);
+    }
+    sizes
+}
+
+fn swap_columns(a: &mut Matrix, j: usize, k: usize) {
+    for i in 0..a.rows {
+        a.row_mut(i).swap(j, k);
+    }
+}
+
+/// v of length sqrt 2 such that x - v (v x) has zeros behind its first entry; zero if it has them.
+fn reflection(x: &[f64]) -> Vec<f64> {
+    let size = x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut v = x.to_vec();
+    let Some(first) = v.first_mut() else { return v };
+    *first += if *first < 0.0 { -size } else { size };
+    let half = v.iter().map(|x| x * x).sum::<f64>() / 2.0;
+    if half > 0.0 {
+        let factor = 1.0 / half.sqrt();
+        v.iter_mut().for_each(|x| *x *= factor);
+    }
+    v
+}
+
+/// b - v (v^T b) in the rows from `k` on.
+fn reflect(v: &[f64], k: usize, b: &mut Matrix) {
+    let mut sums = vec![0.0; b.columns];
+    for (i, &w) in v.iter().enumerate() {
+        add_to(&mut sums, w, b.row(k + i));
+    }
+    for (i, &w) in v.iter().enumerate() {
+        add_to(b.row_mut(k + i), -w, &sums);
+    }
+}
+
+/// The solution x of least |O (x, d)| with C (x, d) = 0, as a matrix on d: `objective` and
+/// `conditions` have the columns of x first, then those of the data d.
+pub(super) fn constrained_least_squares(
+    unknowns: usize,
+    conditions: &Matrix,
+    objective: &Matrix,
+) -> Matrix {
+    let split =
+        |a: &Matrix| (a.select_columns(0..unknowns), a.select_columns(unknowns..a.num_columns()));
+    let (c_x, mut c_d) = split(conditions);
+    let (o_x, o_d) = split(objective);
+    c_d.entries.iter_mut().for_each(|x| *x = -*x);
+    let (mut x, free) = Qr::new(c_x.transposed()).solutions(unknowns, &c_d);
+    // o_x (x + free y) + o_d = least
+    let mut right = o_x.times(&x);
+    right.add(1.0, &o_d);
+    let y = Qr::new(o_x.times(&free)).least_squares(right);
+    x.add(-1.0, &free.times(&y));
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn some(rows: usize, columns: usize, seed: f64) -> Matrix {
+        let mut x = seed;
+        let mut result = Matrix::zeros(rows, columns);
+        for entry in &mut result.entries {
+            x = (x * 997.0 + 0.123).rem_euclid(1.0);
+            *entry = x - 0.5;
+        }
+        result
+    }
+
+    fn largest(a: &Matrix) -> f64 {
+        a.entries.iter().fold(0.0, |most, x| most.max(x.abs()))
+    }
+
+    #[test]
+    fn least_squares_leave_an_orthogonal_rest() {
+        let (a, b) = (some(9, 4, 0.3), some(9, 2, 0.7));
+        let x = Qr::new(a.clone()).least_squares(b.clone());
+        let mut rest = a.times(&x);
+        rest.add(-1.0, &b);
+        assert!(largest(&a.transposed().times(&rest)) < 1e-14);
+        assert!(largest(&rest) > 1e-2);
+    }
+
+    #[test]
+    fn solutions_are_found_though_conditions_repeat_others() {
+        let base = some(3, 7, 0.2);
+        let repeated = some(5, 3, 0.9).times(&base);
+        let exact = some(7, 2, 0.5);
+        let qr = Qr::new(repeated.transposed());
+        assert_eq!(qr.rank, 3);
+        let (x, free) = qr.solutions(7, &repeated.times(&exact));
+        let mut error = repeated.times(&x);
+        error.add(-1.0, &repeated.times(&exact));
+        assert!(largest(&error) < 1e-14);
+        assert_eq!(free.num_columns(), 4);
+        assert!(largest(&repeated.times(&free)) < 1e-14);
+    }
+
+    #[test]
+    fn the_triangle_has_the_lengths_of_the_matrix() {
+        let (a, x) = (some(20, 6, 0.4), some(6, 1, 0.1));
+        let size = |m: &Matrix| m.entries.iter().map(|x| x * x).sum::<f64>();
+        let (long, short) = (a.times(&x), triangle(a).times(&x));
+        assert!((size(&long) - size(&short)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn conditions_hold_exactly_and_the_rest_is_least() {
+        let (conditions, objective) = (some(3, 8, 0.6), some(12, 8, 0.8));
+        let x = constrained_least_squares(6, &conditions, &objective);
+        let with_data = |x: &Matrix| {
+            let mut all: Vec<Vec<f64>> = (0..6).map(|i| x.row(i).to_vec()).collect();
+            all.extend([vec![1.0, 0.0], vec![0.0, 1.0]]);
+            Matrix::from_rows(2, &all)
+        };
+        assert!(largest(&conditions.times(&with_data(&x))) < 1e-14);
+        let energy =
+            |x: &Matrix| objective.times(&with_data(x)).entries.iter().map(|x| x * x).sum::<f64>();
+        let (_, free) = Qr::new(conditions.select_columns(0..6).transposed())
+            .solutions(6, &Matrix::zeros(3, 2));
+        for k in 0..3 {
+            let mut moved = x.clone();
+            moved.add(1e-3, &free.select_columns(k..k + 1).times(&some(1, 2, 0.3)));
+            assert!(energy(&moved) > energy(&x));
+        }
+    }
+}

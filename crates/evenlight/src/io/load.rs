@@ -1,0 +1,221 @@
+//! Cages from files of any kind.
+//!
+//! ```text
+//!   bytes --Format::read--> Loaded { mesh, naming, notices } --check--> Cage, notices
+//!               |                                                |
+//!               +------------------> LoadError <-----------------+
+//! ```
+//!
+//! A file is read strictly, and then its mesh is checked. What a message calls vertices and
+//! faces is what the file calls them: [`Naming`].
+
+use std::fmt;
+
+use super::obj::{self, UnknownTag};
+use super::ply;
+use crate::mesh::{Cage, CheckError, FaceId, LibraryNumbers, Mesh, Names, VertexId, Warning};
+
+/// The kinds of files that hold cages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ.
+    Obj,
+    /// PLY, ascii or binary.
+    Ply,
+}
+
+impl Format {
+    /// The kind of file that ends in `.extension`, in small or capital letters.
+    pub fn from_extension(extension: &str) -> Option<Self> {
+        match extension.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            _ => None,
+        }
+    }
+
+    /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.
+    pub fn of_content(bytes: &[u8]) -> Self {
+        match bytes {
+            [b'p', b'l', b'y', b'\n' | b'\r' | b' ', ..] => Self::Ply,
+            _ => Self::Obj,
+        }
+    }
+
+    /// Reads `bytes` as a file of this kind.
+    ///
+    /// # Errors
+    ///
+    /// Those of the reader.
+    ///
+    /// ```
+    /// use evenlight::io::load::Format;
+    ///
+    /// let bytes = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    /// let (cage, notices) = Format::of_content(bytes).read(bytes)?.check()?;
+    /// assert!(cage.num_faces() == 1 && notices.is_empty());
+    /// # Ok::<(), evenlight::io::load::LoadError>(())
+    /// ```
+    pub fn read(self, bytes: &[u8]) -> Result<Loaded, LoadError> {
+        Ok(match self {
+            Self::Obj => obj::read(bytes)?.into(),
+            Self::Ply => ply::read(bytes)?.into(),
+        })
+    }
+}
+
+/// A mesh as read, not yet checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// What the file calls its vertices and faces.
+    pub naming: Naming,
+    /// What was ignored or completed.
+    pub notices: Vec<Notice>,
+}
+
+impl Loaded {
+    /// Checks the mesh; what was ignored is told beside the cage.
+    ///
+    /// # Errors
+    ///
+    /// As [`Cage::new`], in the numbers of the file.
+    pub fn check(self) -> Result<(Cage, Vec<Notice>), LoadError> {
+        let Self { mesh, naming, mut notices } = self;
+        match Cage::new(mesh) {
+            Ok(cage) => {
+                let of_mesh = cage.warnings().iter().map(|w| Notice::of_warning(w, &naming));
+                notices.extend(of_mesh);
+                Ok((cage, notices))
+            }
+            Err(error) => Err(LoadError::Check(Box::new(Refusal { error, naming, notices }))),
+        }
+    }
+}
+
+/// What a file calls its vertices and faces.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Naming {
+    /// By their numbers from 1, and by lines.
+    Lines(obj::Source),
+    /// By their numbers from 0.
+    FromZero,
+}
+
+impl Names for Naming {
+    fn vertex(&self, vertex: VertexId) -> String {
+        match self {
+            Self::Lines(source) => source.vertex(vertex),
+            Self::FromZero => LibraryNumbers.vertex(vertex),
+        }
+    }
+
+    fn face(&self, face: FaceId) -> String {
+        match self {
+            Self::Lines(source) => source.face(face),
+            Self::FromZero => LibraryNumbers.face(face),
+        }
+    }
+}
+
+/// Something in a file that was ignored or completed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Notice {
+    /// The lines with a tag that is not known.
+    UnknownTag(UnknownTag),
+    /// The vertices in no face.
+    UnusedVertices {
+        /// How many there are.
+        count: usize,
+        /// The sentence that names the first of them.
+        message: String,
+    },
+    /// Anything else, in a sentence.
+    Remark(String),
+}
+
+impl Notice {
+    fn of_warning(warning: &Warning, names: &dyn Names) -> Self {
+        match warning {
+            Warning::UnusedVertices(vertices) => {
+                Self::UnusedVertices { count: vertices.len(), message: warning.describe(names) }
+            }
+        }
+    }
+}
+
+impl fmt::Display for Notice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownTag(tag) => tag.fmt(f),
+            Self::UnusedVertices { message, .. } | Self::Remark(message) => f.write_str(message),
+        }
+    }
+}
+
+/// Why a file gives no cage.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LoadError {
+    /// It is no OBJ file.
+    #[error(transparent)]
+    Obj(#[from] obj::ReadError),
+    /// It is no PLY file.
+    #[error(transparent)]
+    Ply(#[from] ply::ReadError),
+    /// Its mesh cannot be used.
+    #[error("{0}")]
+    Check(Box<Refusal>),
+}
+
+impl LoadError {
+    /// Every fault in a sentence of its own.
+    pub fn faults(&self) -> Vec<String> {
+        match self {
+            Self::Obj(error) => {
+                let more = (error.num_more > 0)
+                    .then(|| format!("and {} more lines that cannot be read", error.num_more));
+                error.faults.iter().map(ToString::to_string).chain(more).collect()
+            }
+            Self::Ply(error) => vec![error.to_string()],
+            Self::Check(refusal) => {
+                let faults = refusal.error.errors.iter();
+                faults.map(|fault| fault.describe(&refusal.naming)).collect()
+            }
+        }
+    }
+
+    /// What was ignored or completed before the fault was found.
+    pub fn notices(&self) -> &[Notice] {
+        match self {
+            Self::Check(refusal) => &refusal.notices,
+            Self::Obj(_) | Self::Ply(_) => &[],
+        }
+    }
+}
+
+/// The faults of a mesh and what the file calls its parts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// The faults.
+    pub error: CheckError,
+    /// What the file calls its vertices and faces.
+    pub naming: Naming,
+    /// What was ignored or completed.
+    pub notices: Vec<Notice>,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.naming {
+            Naming::Lines(_) => f.write_str(&self.error.describe(&self.naming))?,
+            Naming::FromZero => self.error.fmt(f)?,
+        }
+        // Most likely the cause, when what was read is not a mesh: the file is of another kind.
+        match &self.notices[..] {
+            [] => Ok(()),
+            [notice] => write!(f, "\nnote: {notice}"),
+            [notice, others @ ..] => write!(f, "\nnote: {notice}, and {} more", others.len()),
+        }
+    }
+}

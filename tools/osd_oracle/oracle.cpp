@@ -1,0 +1,227 @@
+// Limit positions, derivatives and UVs by OpenSubdiv, written for the project's golden data.
+//
+//   build:  g++ -O2 -std=c++17 oracle.cpp -o oracle -losdCPU         (Debian: libosd-dev, g++)
+//   run:    ./oracle CAGE.obj                                        (text to stdout)
+//
+// The cage may hold OpenSubdiv's tags (`t crease`, `t corner`, `t hole`, `t creasemethod`,
+// `t interpolateboundary`, `t facevaryinginterpolateboundary`). Every parametric quad (a quad,
+// or one corner of another face) is evaluated at the 10 x 10 parameters of GRID, v fastest, by
+// Bfr in double precision with both approximation levels at their most, 10. Where the file has
+// `vt`, they follow in each of the six modes, unless the second argument is `--no-uv`.
+#include <opensubdiv/bfr/refinerSurfaceFactory.h>
+#include <opensubdiv/bfr/surface.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/far/topologyRefinerFactory.h>
+#include <opensubdiv/version.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace OpenSubdiv;
+
+static const double GRID[10] = {0, .03, .125, .27, .4, .5, .61, .75, .9, 1};
+static const int DEPTH = 10;
+static const char *MODES[6] = {"none", "corners-only", "corners-plus1", "corners-plus2",
+                               "boundaries", "all"};
+
+struct Cage {
+    std::vector<double> positions, uvs;
+    std::vector<int> sizes, corners, uvCorners;
+    std::vector<int> creases, sharpVertices, holes;
+    std::vector<float> creaseSharpness, vertexSharpness;
+    Sdc::Options::VtxBoundaryInterpolation boundary = Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;
+    bool chaikin = false;
+};
+
+[[noreturn]] static void fail(std::string const &message) {
+    fprintf(stderr, "oracle: %s\n", message.c_str());
+    exit(1);
+}
+
+static int fileIndex(int number, size_t count) { return number < 0 ? int(count) + number : number - 1; }
+
+static void readFace(std::istringstream &words, Cage &cage) {
+    int size = 0;
+    for (std::string word; words >> word; ++size) {
+        cage.corners.push_back(fileIndex(atoi(word.c_str()), cage.positions.size() / 3));
+        size_t slash = word.find('/');
+        if (slash != std::string::npos && slash + 1 < word.size() && word[slash + 1] != '/') {
+            int number = atoi(word.c_str() + slash + 1);
+            cage.uvCorners.push_back(fileIndex(number, cage.uvs.size() / 2));
+        }
+    }
+    cage.sizes.push_back(size);
+}
+
+static void readTag(std::istringstream &words, Cage &cage) {
+    std::string name, counts;
+    words >> name >> counts;
+    int numInts = 0, numFloats = 0, numStrings = 0;
+    if (sscanf(counts.c_str(), "%d/%d/%d", &numInts, &numFloats, &numStrings) != 3) fail("bad tag " + name);
+    std::vector<int> ints(numInts);
+    std::vector<float> floats(numFloats);
+    std::vector<std::string> strings(numStrings);
+    for (int &i : ints) words >> i;
+    for (float &f : floats) words >> f;
+    for (std::string &s : strings) words >> s;
+    if (!words) fail("short tag " + name);
+    if (name == "crease") {
+        for (int i = 0; i + 1 < numInts; ++i) {
+            cage.creases.insert(cage.creases.end(), {ints[i], ints[i + 1]});
+            cage.creaseSharpness.push_back(floats[numFloats > 1 ? i : 0]);
+        }
+    } else if (name == "corner") {
+        for (int i = 0; i < numInts; ++i) {
+            cage.sharpVertices.push_back(ints[i]);
+            cage.vertexSharpness.push_back(floats[numFloats > 1 ? i : 0]);
+        }
+    } else if (name == "hole") {
+        cage.holes.insert(cage.holes.end(), ints.begin(), ints.end());
+    } else if (name == "interpolateboundary") {
+        // In the tags, 1 and 2 are the other way round than in the library.
+        cage.boundary = ints.at(0) == 0   ? Sdc::Options::VTX_BOUNDARY_NONE
+                        : ints.at(0) == 1 ? Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER
+                                          : Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
+    } else if (name == "creasemethod") {
+        cage.chaikin = strings.at(0) == "chaikin";
+    } else if (name != "facevaryinginterpolateboundary") {
+        fail("unknown tag " + name);
+    }
+}
+
+static Cage readCage(char const *path) {
+    std::ifstream in(path);
+    if (!in) fail(std::string("cannot open ") + path);
+    Cage cage;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string key;
+        double x[3];
+        words >> key;
+        if (key == "v" && words >> x[0] >> x[1] >> x[2]) cage.positions.insert(cage.positions.end(), x, x + 3);
+        if (key == "vt" && words >> x[0] >> x[1]) cage.uvs.insert(cage.uvs.end(), x, x + 2);
+        if (key == "f") readFace(words, cage);
+        if (key == "t") readTag(words, cage);
+    }
+    return cage;
+}
+
+static std::unique_ptr<Far::TopologyRefiner> refiner(Cage const &cage, int mode) {
+    Far::TopologyDescriptor d;
+    Far::TopologyDescriptor::FVarChannel channel;
+    d.numVertices = int(cage.positions.size() / 3);
+    d.numFaces = int(cage.sizes.size());
+    d.numVertsPerFace = cage.sizes.data();
+    d.vertIndicesPerFace = cage.corners.data();
+    d.numCreases = int(cage.creaseSharpness.size());
+    d.creaseVertexIndexPairs = cage.creases.data();
+    d.creaseWeights = cage.creaseSharpness.data();
+    d.numCorners = int(cage.vertexSharpness.size());
+    d.cornerVertexIndices = cage.sharpVertices.data();
+    d.cornerWeights = cage.vertexSharpness.data();
+    d.numHoles = int(cage.holes.size());
+    d.holeIndices = cage.holes.data();
+    if (mode >= 0) {
+        channel.numValues = int(cage.uvs.size() / 2);
+        channel.valueIndices = cage.uvCorners.data();
+        d.numFVarChannels = 1;
+        d.fvarChannels = &channel;
+    }
+    Sdc::Options options;
+    options.SetVtxBoundaryInterpolation(cage.boundary);
+    options.SetCreasingMethod(cage.chaikin ? Sdc::Options::CREASE_CHAIKIN : Sdc::Options::CREASE_UNIFORM);
+    if (mode >= 0) options.SetFVarLinearInterpolation(Sdc::Options::FVarLinearInterpolation(mode));
+    typedef Far::TopologyRefinerFactory<Far::TopologyDescriptor> Factory;
+    std::unique_ptr<Far::TopologyRefiner> made(Factory::Create(d, Factory::Options(Sdc::SCHEME_CATMARK, options)));
+    if (!made) fail("OpenSubdiv refuses the cage");
+    return made;
+}
+
+// Appends a number with 13 decimals (values are of order 1), without zeros that say nothing.
+static void print(std::string &out, double x) {
+    char text[64];
+    snprintf(text, sizeof text, "%.13f", x);
+    std::string s(text);
+    s.erase(s.find_last_not_of('0') + 1);
+    if (s.back() == '.') s.pop_back();
+    bool negative = s[0] == '-';
+    if (negative) s.erase(0, 1);
+    if (s.size() > 1 && s[0] == '0') s.erase(0, 1);
+    if (negative && s != "0") out += '-';
+    out += s;
+}
+
+// All points of one parametric quad; `corner` is -1 for a quad of the cage.
+static void writeQuad(Bfr::Surface<double> const &surface, std::vector<double> const &values, int width, int corner,
+                      std::string &out) {
+    typedef Bfr::Surface<double>::PointDescriptor Stride;
+    std::vector<double> points(size_t(surface.GetNumPatchPoints()) * width);
+    surface.PreparePatchPoints(values.data(), Stride(width), points.data(), Stride(width));
+    for (double u : GRID) {
+        for (double v : GRID) {
+            double at[2] = {u, v}, unit = 1, result[3][3];
+            if (corner >= 0) {
+                double inQuad[2] = {u, v};
+                surface.GetParameterization().ConvertNormalizedSubFaceToCoord(corner, inQuad, at);
+                unit = .5;
+            }
+            surface.Evaluate(at, points.data(), Stride(width), result[0], result[1], result[2]);
+            for (int d = 0; d < 3; ++d) {
+                for (int k = 0; k < width; ++k) {
+                    if (d + k) out += ' ';
+                    print(out, result[d][k] * (d ? unit : 1));
+                }
+            }
+            out += '\n';
+        }
+    }
+}
+
+static std::string surfaces(Cage const &cage, int mode) {
+    std::string out;
+    auto mesh = refiner(cage, mode);
+    typedef Bfr::RefinerSurfaceFactory<> Factory;
+    Factory::Options options;
+    options.SetApproxLevelSmooth(DEPTH).SetApproxLevelSharp(DEPTH);
+    Factory factory(*mesh, options);
+    for (int face = 0; face < int(cage.sizes.size()); ++face) {
+        Bfr::Surface<double> surface;
+        bool found = mode < 0 ? factory.InitVertexSurface(face, &surface)
+                              : factory.InitFaceVaryingSurface(face, &surface, 0);
+        int size = cage.sizes[face];
+        if (!found) out += "omitted " + std::to_string(face) + '\n';
+        for (int k = 0; found && k < (size == 4 ? 1 : size); ++k) {
+            out += "quad " + std::to_string(face) + ' ' + std::to_string(k) + '\n';
+            writeQuad(surface, mode < 0 ? cage.positions : cage.uvs, mode < 0 ? 3 : 2, size == 4 ? -1 : k, out);
+        }
+    }
+    return out;
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) fail("usage: oracle CAGE.obj [--no-uv]");
+    Cage cage = readCage(argv[1]);
+    bool hasUvs = cage.uvCorners.size() == cage.corners.size() && !(argc > 2 && !strcmp(argv[2], "--no-uv"));
+    const char *name = strrchr(argv[1], '/');
+    printf("# Limit surface of %s by OpenSubdiv %d.%d.%d (Debian libosd-dev), written by tools/osd_oracle/oracle.cpp:\n",
+           name ? name + 1 : argv[1], OPENSUBDIV_VERSION_MAJOR, OPENSUBDIV_VERSION_MINOR, OPENSUBDIV_VERSION_PATCH);
+    printf("# Bfr surfaces in double precision, approximation levels %d (smooth) and %d (sharp).\n", DEPTH, DEPTH);
+    printf("# Per quad (face, corner) and parameters (u, v), v fastest, each out of 0 .03 .125 .27 .4 .5 .61 .75 .9 1:\n");
+    printf("# value, derivative along u, derivative along v.\n");
+    printf("positions\n%s", surfaces(cage, -1).c_str());
+    // Many modes give the same; then the first of them is named.
+    std::vector<std::string> modes;
+    for (int mode = 0; hasUvs && mode < 6; ++mode) {
+        modes.push_back(surfaces(cage, mode));
+        int first = int(std::find(modes.begin(), modes.end(), modes.back()) - modes.begin());
+        if (first < mode) printf("uv %s as %s\n", MODES[mode], MODES[first]);
+        else printf("uv %s\n%s", MODES[mode], modes.back().c_str());
+    }
+}
