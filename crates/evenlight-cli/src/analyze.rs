@@ -82,9 +82,8 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     let mut analyses = Vec::new();
     for &scheme in &args.schemes {
         let options = SurfaceOptions {
-            scheme,
-            rules: args.rules.rules.into(),
             boundary: args.boundary.rule(),
+            ..args.rules.options_among(&args.schemes, scheme)
         };
         progress.stage(format!("Analysing {}", scheme.name()));
         let mut surface = input::build(Arc::clone(&cage), options, &args.cage)?;

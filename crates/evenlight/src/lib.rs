@@ -92,7 +92,7 @@ pub mod tessellate;
 pub use mesh::{Cage, FaceId, Mesh, VertexId};
 pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
-pub use scheme::{RuleSet, SchemeKind};
+pub use scheme::{Contraction, RuleSet, SchemeKind, Variant};
 pub use surface::{QuadId, Surface, SurfaceOptions};
 
 /// The examples of the README are tested.

@@ -11,10 +11,14 @@ use crate::mesh::{Cage, Fan, VertexId, cnet_vertices, fan_vertices};
 use crate::net::CNet;
 use crate::point::Point;
 use crate::rings::{Rings, ValenceRules};
+use crate::scheme::{ContractionError, SchemeKind, Variant};
 
 /// Why no surface could be built.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
+    /// The scheme has no such contraction.
+    #[error(transparent)]
+    Contraction(#[from] ContractionError),
     /// Not even Catmull-Clark has rules for the valence of these points.
     #[error(
         "there are rules for valences up to {MAX_VALENCE}, but {}; \
@@ -53,6 +57,7 @@ pub(super) fn rules_of_points(
     plan: &Plan,
     options: SurfaceOptions,
 ) -> Result<Vec<(PointRule, Arc<ValenceRules>)>, SurfaceError> {
+    options.scheme.check_contraction(options.contraction)?;
     let without = plan.points.iter().filter(|p| p.fan.faces > MAX_VALENCE);
     let points: Vec<_> = without.map(|p| (p.place, p.valence)).collect();
     if !points.is_empty() {
@@ -72,7 +77,12 @@ fn make(rule: PointRule, fan: Fan, options: SurfaceOptions) -> ValenceRules {
     if !fan.is_smooth() {
         return ValenceRules::of_fan(fan);
     }
-    let rules = ValenceRules::new(rule.scheme(options.scheme), options.rules, fan.faces);
+    let rules = match rule {
+        PointRule::Scheme => ValenceRules::new(options.scheme, options.variant(), fan.faces),
+        PointRule::CatmullClark(_) => {
+            ValenceRules::new(SchemeKind::CatmullClark, Variant::default(), fan.faces)
+        }
+    };
     rules.expect("has_rules was asked before, and Catmull-Clark has all")
 }
 

@@ -32,7 +32,7 @@ use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add_scaled};
 use crate::rings::Rings;
-use crate::scheme::{RuleSet, SchemeKind};
+use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
 use build::{describe, refined_positions, rings, rules_of_points};
 use place::{
     RingPatch, Source, Square, from_sector, quadrant, ring_domain, to_sector, turned_patch,
@@ -43,14 +43,23 @@ use place::{
 pub struct QuadId(pub u32);
 
 /// How a surface is built; by default with `qas4` at full precision.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions {
     /// The scheme at extraordinary points.
     pub scheme: SchemeKind,
     /// The tables of that scheme.
     pub rules: RuleSet,
+    /// How fast its rings contract.
+    pub contraction: Contraction,
     /// The rule at the boundary; `None` for that of the cage's tags.
     pub boundary: Option<BoundaryRule>,
+}
+
+impl SurfaceOptions {
+    /// Which rules of the scheme are taken.
+    pub fn variant(&self) -> Variant {
+        Variant { rules: self.rules, contraction: self.contraction }
+    }
 }
 
 /// A subdivision surface over a cage.
@@ -114,8 +123,10 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::NoRules`] if more than 1024 faces meet at a point. Where the scheme has no
+    /// [`SurfaceError::NoRules`] if more than 1024 faces meet at a point; where the scheme has no
     /// rules, the point gets Catmull-Clark's ([`ExtraordinaryPoint::rule`]).
+    /// [`SurfaceError::Contraction`] if the scheme has no such contraction
+    /// ([`SchemeKind::check_contraction`]).
     pub fn build(
         cage: impl Into<Arc<Cage>>,
         options: SurfaceOptions,
@@ -305,12 +316,17 @@ impl Surface {
             Piece::Sector { point, sector, corner } => {
                 let (point, sector) = (point as usize, sector as usize);
                 let around = &self.rings[point];
-                let count = around.patches_per_sector();
+                let (count, sigma) = (around.patches_per_sector(), around.sigma());
                 let all = (0..rings).flat_map(|ring| (0..count).map(move |which| (ring, which)));
                 out.extend(all.map(|(ring, which)| PatchPlace {
                     role: Role::Ring(ring + 1),
                     quad: square.quad,
-                    domain: square.part(ring_domain(corner, ring, around.patch_domain(which))),
+                    domain: square.part(ring_domain(
+                        corner,
+                        sigma,
+                        ring,
+                        around.patch_domain(which),
+                    )),
                     point: Some(point),
                     sector: Some(sector),
                     source: Source::Ring(RingPatch { point, sector, ring, which, square, corner }),

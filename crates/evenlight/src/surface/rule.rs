@@ -35,7 +35,7 @@ impl PointRule {
     /// The rule of a point of `cage`.
     pub fn of(cage: &Cage, point: &Extraordinary, options: SurfaceOptions) -> Self {
         if point.fan.is_smooth() {
-            let has_rules = options.scheme.has_rules(options.rules, point.valence);
+            let has_rules = options.scheme.has_rules(options.variant(), point.valence);
             return if has_rules { Self::Scheme } else { Self::CatmullClark(Reason::Valence) };
         }
         let on_boundary = matches!(point.place, Place::Vertex(v) if cage.topology().is_boundary(v));
