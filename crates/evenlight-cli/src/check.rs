@@ -10,14 +10,14 @@ use evenlight::{Cage, FaceId, RuleSet, SchemeKind};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
-use crate::input::{self, Source, omitted_text};
+use crate::input::{self, CageArg, Source, omitted_text};
 use crate::output::Target;
 
 /// Arguments of `evenlight check`.
 #[derive(Args, Debug)]
 pub struct CheckArgs {
-    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
-    cage: Source,
+    #[command(flatten)]
+    cage: CageArg,
 
     /// JSON instead of text; also for a cage that is refused, with its faults in `errors`
     #[arg(long)]
@@ -40,11 +40,15 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
         args.output.write_json(&report)?;
     }
     for warning in &report.warnings {
-        warn(format_args!("{}: {warning}", args.cage));
+        warn(format_args!("{}: {warning}", args.cage.source));
     }
-    let refused = |error: &LoadError| Failure::Unusable(format!("{}: {error}", args.cage));
+    let refused = |error: &LoadError| Failure::Unusable(format!("{}: {error}", args.cage.source));
     result.as_ref().map_err(refused)?;
-    if args.json { Ok(()) } else { args.output.write(|out| report.write_text(&args.cage, out)) }
+    if args.json {
+        Ok(())
+    } else {
+        args.output.write(|out| report.write_text(&args.cage.source, out))
+    }
 }
 
 /// What is known of a cage. Vertices and faces are counted from 0.

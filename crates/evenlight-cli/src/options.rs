@@ -6,7 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
 
-use crate::input::Source;
+use crate::input::CageArg;
 use crate::q::QArg;
 
 /// Options that stand before or after any subcommand.
@@ -25,8 +25,8 @@ pub struct Global {
 /// The cage and the rules that make a surface of it.
 #[derive(Args, Clone, Debug)]
 pub struct SurfaceArgs {
-    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
-    pub cage: Source,
+    #[command(flatten)]
+    pub cage: CageArg,
 
     /// Subdivision scheme; what it is like around an extraordinary point of valence n
     #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
