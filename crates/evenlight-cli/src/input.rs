@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use evenlight::io::load::{Format, LoadError, Loaded};
+use evenlight::surface::SurfaceError;
 use evenlight::{Cage, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
@@ -143,7 +144,10 @@ pub fn build(
     options: SurfaceOptions,
     source: &Source,
 ) -> Result<Surface, Failure> {
-    Surface::build(cage, options).map_err(|error| Failure::Unusable(format!("{source}: {error}")))
+    Surface::build(cage, options).map_err(|error| match error {
+        SurfaceError::Contraction(error) => Failure::Usage(error.to_string()),
+        error => Failure::Unusable(format!("{source}: {error}")),
+    })
 }
 
 /// Says on stderr which faces have no surface.
