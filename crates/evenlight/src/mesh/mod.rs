@@ -5,6 +5,7 @@
 //! ([`Topology`]) can be walked without a case that fails. Everything behind the cage is
 //! total: it cannot meet bad input any more.
 
+pub(crate) mod channel;
 mod check;
 mod fault;
 pub mod isolation;
@@ -13,7 +14,7 @@ mod tags;
 mod topology;
 
 pub use check::Cage;
-pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Warning};
+pub use fault::{CheckError, LibraryNumbers, MeshError, Names, PrimvarFault, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
 pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,

@@ -17,11 +17,13 @@
 
 mod build;
 mod place;
+mod primvar;
 
 pub use build::SurfaceError;
 pub use place::{PatchPlace, PlacedPatch, Role};
+pub use primvar::PrimvarJet;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::mesh::isolation::{CORNERS, Piece, Plan};
 use crate::mesh::{Cage, FaceId, VertexId};
@@ -60,6 +62,8 @@ pub struct Surface {
     /// The rings around every extraordinary point.
     rings: Vec<Rings>,
     points: Vec<ExtraordinaryPoint>,
+    /// The primvars, built when first asked for.
+    channels: Vec<OnceLock<primvar::Channel>>,
 }
 
 /// An extraordinary point of the surface: an interior vertex of valence other than 4, or the
@@ -121,7 +125,8 @@ impl Surface {
             })
             .collect::<Vec<_>>();
         let points = rings.iter().enumerate().map(|(p, r)| describe(&plan, p, r)).collect();
-        Ok(Self { cage, options, plan, refined, rings, points })
+        let channels = primvar::unbuilt(&cage);
+        Ok(Self { cage, options, plan, refined, rings, points, channels })
     }
 
     /// The cage.
