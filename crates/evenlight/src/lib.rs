@@ -60,6 +60,7 @@
 //! | [`scheme`] | which rules there are |
 //! | [`rings`] | the surface around one extraordinary point at any depth |
 //! | [`cap`] | finitely many patches instead of all further rings |
+//! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
@@ -73,6 +74,7 @@
 
 pub mod analyse;
 mod angle;
+pub mod basis;
 pub mod cap;
 pub mod io;
 pub mod mesh;

@@ -450,7 +450,7 @@ fn normal_and_curvature(jet: &Jet, sigma: f64, zeta: f64) -> (Vector, f64, f64) 
 }
 
 /// The ring l with 2^-(l+1) < x <= 2^-l, for 0 < x <= 1.
-fn ring_of(x: f64) -> usize {
+pub(crate) fn ring_of(x: f64) -> usize {
     let (mut ring, mut x) = (0, x);
     while x <= 0.5 {
         x *= 2.0;
@@ -460,12 +460,12 @@ fn ring_of(x: f64) -> usize {
 }
 
 /// x 2^ring, exactly (2^ring itself may be out of range when x is denormal).
-fn scaled_up(x: f64, ring: usize) -> f64 {
+pub(crate) fn scaled_up(x: f64, ring: usize) -> f64 {
     (0..ring).fold(x, |x, _| 2.0 * x)
 }
 
 /// x^k by repeated squaring, in a fixed order of rounding.
-fn power(x: f64, k: usize) -> f64 {
+pub(crate) fn power(x: f64, k: usize) -> f64 {
     let (mut result, mut square, mut k) = (1.0, x, k);
     while k > 0 {
         if k & 1 == 1 {

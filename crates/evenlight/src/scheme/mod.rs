@@ -125,7 +125,7 @@ impl SchemeKind {
     }
 
     /// The degree of the rings of guided subdivision.
-    fn guided_degree(self) -> Option<usize> {
+    pub(crate) fn guided_degree(self) -> Option<usize> {
         match self {
             Self::Guided3 => Some(3),
             Self::Guided4 => Some(4),

@@ -73,7 +73,8 @@ pub(crate) fn rules(n: usize, degree: usize) -> Option<Rules> {
     })
 }
 
-/// (i,j) with 0 < i + j and i, j <= 5, by i + j; the first five are the expansion.
+/// (i,j) with 0 < i + j and i, j <= 5, by i + j: the last nodes of every sector; the first five are
+/// the expansion.
 fn monomials() -> Vec<(usize, usize)> {
     let of_degree = |s: usize| (0..=5).rev().filter(move |&i| i <= s && s - i <= 5);
     (1..=10).flat_map(|s| of_degree(s).map(move |i| (i, s - i))).collect()
