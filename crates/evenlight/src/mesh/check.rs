@@ -24,6 +24,8 @@
 
 mod primvars;
 
+pub use primvars::PrimvarFault;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{

@@ -13,8 +13,8 @@ mod refine;
 mod tags;
 mod topology;
 
-pub use check::Cage;
-pub use fault::{CheckError, LibraryNumbers, MeshError, Names, PrimvarFault, Warning};
+pub use check::{Cage, PrimvarFault};
+pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
 pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,
