@@ -17,7 +17,7 @@ use evenlight::{SchemeKind, Surface, SurfaceOptions};
 
 use crate::error::Failure;
 use crate::input::{self, Source};
-use crate::options::{RulesArg, scheme_parser};
+use crate::options::{BoundaryArg, RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
 use crate::q::QArg;
@@ -36,6 +36,9 @@ pub struct AnalyzeArgs {
 
     #[command(flatten)]
     rules: RulesArg,
+
+    #[command(flatten)]
+    boundary: BoundaryArg,
 
     #[command(flatten)]
     q: QArg,
@@ -78,7 +81,10 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(args.schemes.len(), quiet);
     let mut analyses = Vec::new();
     for &scheme in &args.schemes {
-        let options = SurfaceOptions { scheme, rules: args.rules.rules.into() };
+        let options = SurfaceOptions {
+            boundary: args.boundary.rule(),
+            ..args.rules.options_among(&args.schemes, scheme)
+        };
         progress.stage(format!("Analysing {}", scheme.name()));
         let mut surface = input::build(Arc::clone(&cage), options, &args.cage)?;
         edits.apply(&mut surface)?;

@@ -6,8 +6,8 @@
 //! ```text
 //!  b ^
 //!  1 +-------+---+---+   ring l = 0, 1, 2, ... covers 2^-(l+1) < max(a,b) <= 2^-l
-//!    |       |       |   with three patches or more
-//!    |       | ring 0|
+//!    |       |       |   with three patches or more; with another contraction than
+//!    |       | ring 0|   Catmull-Clark's there is some sigma in the place of 1/2
 //! .5 +---+---+       +
 //!    | r 1   |       |
 //!    +-+-+   |       |
@@ -31,10 +31,11 @@
 
 use std::sync::{Arc, OnceLock};
 
+use crate::mesh::Fan;
 use crate::net::{CNet, DNet, Expansion, Quadratic};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add, add_scaled, cross, dot, norm, scale, sub, unit};
-use crate::scheme::{RuleSet, Rules, SchemeKind, Subdominant};
+use crate::scheme::{FanLimit, Rules, SchemeKind, Subdominant, Variant, fan_rules};
 
 /// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
 /// valence.
@@ -43,14 +44,23 @@ pub(crate) struct ValenceRules {
     kind: SchemeKind,
     rules: Rules,
     subdominant: Subdominant,
+    /// Of a fan between sharp edges, not of a scheme.
+    fan: Option<FanLimit>,
 }
 
 impl ValenceRules {
     /// `None` if the scheme has no rules for this valence.
-    pub(crate) fn new(kind: SchemeKind, set: RuleSet, valence: usize) -> Option<Self> {
-        let rules = kind.rules(set, valence)?;
+    pub(crate) fn new(kind: SchemeKind, variant: Variant, valence: usize) -> Option<Self> {
+        let rules = kind.rules(variant, valence)?;
         let subdominant = Subdominant::new(&rules);
-        Some(Self { kind, rules, subdominant })
+        Some(Self { kind, rules, subdominant, fan: None })
+    }
+
+    /// Catmull-Clark's rules of a fan.
+    pub(crate) fn of_fan(shape: Fan) -> Self {
+        let (rules, limit) = fan_rules(shape);
+        let subdominant = Subdominant::without_plane(&rules, limit.lambda);
+        Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
     }
 
     pub(crate) fn kind(&self) -> SchemeKind {
@@ -84,6 +94,8 @@ impl ValenceRules {
 pub struct Rings {
     rules: Arc<ValenceRules>,
     center: Point,
+    /// The normal at the limit point, or NaN.
+    normal: Vector,
     quadratic: Option<Quadratic>,
     frame: Frame,
     /// The net in front of ring 0, in the frame.
@@ -92,7 +104,7 @@ pub struct Rings {
 }
 
 /// Rings that are kept once they were asked for. A parameter closer to the centre than
-/// 2^-64 is made of the last of them anew, in time proportional to its depth.
+/// 2^-64 (sigma^64) is made of the last of them anew, in time proportional to its depth.
 const CACHED_RINGS: usize = 64;
 
 /// Tangents shorter than this part of the net, or closer to parallel, are none: rounding leaves
@@ -118,15 +130,15 @@ struct Ring {
 
 impl Rings {
     /// The surface over a c-net; `None` if the scheme has no rules for its valence.
-    pub fn from_cnet(cnet: &CNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
-        let rules = Arc::new(ValenceRules::new(kind, set, cnet.valence())?);
+    pub fn from_cnet(cnet: &CNet, kind: SchemeKind, variant: impl Into<Variant>) -> Option<Self> {
+        let rules = Arc::new(ValenceRules::new(kind, variant.into(), cnet.valence())?);
         Some(Self::with_rules(cnet, rules, None))
     }
 
     /// The surface over a d-net with c_0 by [`DNet::center`]; `None` if the scheme has no rules
     /// for its valence or does not work on d-nets.
-    pub fn from_dnet(dnet: &DNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
-        let rules = Arc::new(ValenceRules::new(kind, set, dnet.valence())?);
+    pub fn from_dnet(dnet: &DNet, kind: SchemeKind, variant: impl Into<Variant>) -> Option<Self> {
+        let rules = Arc::new(ValenceRules::new(kind, variant.into(), dnet.valence())?);
         let center = dnet.center(kind.spline()?);
         let net: Vec<Vector> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
         Some(Self::start(&net, center, None, rules))
@@ -155,6 +167,15 @@ impl Rings {
         Self::start(&net, center, q.map(Quadratic::expansion), rules)
     }
 
+    /// The surface over the net of a fan: two nodes on every line, four in every sector, the vertex.
+    pub(crate) fn over_fan(net: &[Point], rules: Arc<ValenceRules>) -> Option<Self> {
+        let limit = rules.fan.as_ref()?;
+        let (center, normal) = (limit.limit_point(net), limit.normal(net));
+        let nodes = &net[..rules.rules.num_nodes()];
+        let relative: Vec<Vector> = nodes.iter().map(|&p| sub(p, center)).collect();
+        Some(Self { normal, ..Self::start(&relative, center, None, rules) })
+    }
+
     /// The surface of a control net relative to its limit point `center`, with the given or the
     /// default quadratic if the scheme has one.
     fn start(
@@ -175,10 +196,11 @@ impl Rings {
         }
         let quadratic = q.map(|q| Quadratic::from_expansion(center, q));
         let cached = [const { OnceLock::new() }; CACHED_RINGS];
-        Self { rules, center, quadratic, frame, first, cached }
+        let normal = if frame.has_plane { frame.axes[2] } else { [f64::NAN; 3] };
+        Self { rules, center, normal, quadratic, frame, first, cached }
     }
 
-    /// The valence.
+    /// The number of sectors: the valence, or of a fan the number of its faces.
     pub fn valence(&self) -> usize {
         self.rules.rules.valence
     }
@@ -186,6 +208,12 @@ impl Rings {
     /// The factor by which the rings shrink: the subdominant eigenvalue of the scheme.
     pub fn lambda(&self) -> f64 {
         self.rules.subdominant.lambda
+    }
+
+    /// The factor by which the parameters of the rings shrink: 1/2 but for contractions other than
+    /// Catmull-Clark's.
+    pub fn sigma(&self) -> f64 {
+        self.rules.rules.sigma()
     }
 
     /// The limit point c_0.
@@ -200,7 +228,7 @@ impl Rings {
 
     /// The unit normal at the limit point; NaN if there is no tangent plane.
     pub fn normal(&self) -> Vector {
-        if self.frame.has_plane { self.frame.axes[2] } else { [f64::NAN; 3] }
+        self.normal
     }
 
     /// The number of patches in each sector of a ring.
@@ -209,13 +237,12 @@ impl Rings {
     }
 
     /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; in ring l
-    /// it is 2^-l as large. The patch's own parameters run the same way.
+    /// it is sigma^l as large. The patch's own parameters run the same way.
     ///
-    /// Patches lie in three squares, [1/2,1] x [1/2,1], [1/2,1] x [0,1/2] and [0,1/2] x [1/2,1],
-    /// one in each, 2 x 2 or 3 x 3, the index along b fastest.
+    /// With s = sigma patches lie in three squares, \[s,1\] x \[s,1\], \[s,1\] x \[0,s\] and
+    /// \[0,s\] x \[s,1\], one in each, 2 x 2 or 3 x 3, the index along b fastest.
     pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
-        let (corner, size) = self.rules.rules.patch_square(which);
-        corner.map(|x| [x, x + size])
+        self.rules.rules.patch_domain(which)
     }
 
     /// All patches of ring `ring` (from 0), sector by sector.
@@ -244,22 +271,23 @@ impl Rings {
         if a.max(b) == 0.0 {
             return self.at_center();
         }
-        let ring = ring_of(a.max(b));
-        let [a, b] = [a, b].map(|x| scaled_up(x, ring));
+        let ring = ring_of(a.max(b), self.sigma());
+        let [a, b] = [a, b].map(|x| scaled_up(x, ring, self.sigma()));
         self.eval_scaled(ring, s, self.rules.rules.patch_at([a, b]), [a, b])
     }
 
     /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
     /// polynomial is extrapolated if (a,b) is not in the patch.
     pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
-        self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring)))
+        self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring, self.sigma())))
     }
 
-    /// A patch at (A,B) = 2^ring (a,b).
+    /// A patch at (A,B) = (a,b) / sigma^ring.
     fn eval_scaled(&self, ring: usize, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
         let ([a0, b0], size) = self.rules.rules.patch_square(which);
         let number = self.patches_per_sector() * s + which;
-        let jet = self.with_ring(ring, |r| r.patches[number].jet((a - a0) / size, (b - b0) / size));
+        let [u, v] = [(a - a0) / size[0], (b - b0) / size[1]];
+        let jet = self.with_ring(ring, |r| r.patches[number].jet(u, v));
         self.in_world(ring, size, &jet)
     }
 
@@ -313,23 +341,23 @@ impl Rings {
 
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
     /// in (a,b).
-    pub(crate) fn in_world(&self, ring: usize, size: f64, jet: &Jet) -> SurfacePoint {
-        let lambda = self.lambda();
+    pub(crate) fn in_world(&self, ring: usize, [u, v]: [f64; 2], jet: &Jet) -> SurfacePoint {
+        let (lambda, step) = (self.lambda(), self.sigma());
         let sigma = power(lambda, ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
-        // A patch parameter runs 2^ring / size times as fast as a and b.
-        let first = power(2.0 * lambda, ring) / size;
-        let second = power(4.0 * lambda, ring) / (size * size);
+        // A patch parameter runs step^-ring / size times as fast as a and b.
+        let first = power(lambda / step, ring);
+        let second = power(lambda / (step * step), ring);
         let world = |factor: f64, r: Vector| self.frame.world(factor, zeta, r);
         let (normal, gauss, mean) = normal_and_curvature(jet, sigma, zeta);
         SurfacePoint {
             jet: Jet {
                 p: add(self.center, world(sigma, jet.p)),
-                du: world(first, jet.du),
-                dv: world(first, jet.dv),
-                duu: world(second, jet.duu),
-                duv: world(second, jet.duv),
-                dvv: world(second, jet.dvv),
+                du: world(first / u, jet.du),
+                dv: world(first / v, jet.dv),
+                duu: world(second / (u * u), jet.duu),
+                duv: world(second / (u * v), jet.duv),
+                dvv: world(second / (v * v), jet.dvv),
             },
             normal: self.frame.world(1.0, 1.0, normal),
             gauss,
@@ -449,20 +477,26 @@ fn normal_and_curvature(jet: &Jet, sigma: f64, zeta: f64) -> (Vector, f64, f64) 
     (unit(area), gauss, mean)
 }
 
-/// The ring l with 2^-(l+1) < x <= 2^-l, for 0 < x <= 1.
-pub(crate) fn ring_of(x: f64) -> usize {
-    let (mut ring, mut x) = (0, x);
-    while x <= 0.5 {
-        x *= 2.0;
+/// The ring l with sigma^(l+1) < x <= sigma^l, for 0 < x <= 1.
+pub(crate) fn ring_of(x: f64, sigma: f64) -> usize {
+    let factor = 1.0 / sigma;
+    let (mut ring, mut x) = (0, x * OUT_OF_THE_DENORMALS);
+    while x <= sigma * OUT_OF_THE_DENORMALS {
+        x *= factor;
         ring += 1;
     }
     ring
 }
 
-/// x 2^ring, exactly (2^ring itself may be out of range when x is denormal).
-pub(crate) fn scaled_up(x: f64, ring: usize) -> f64 {
-    (0..ring).fold(x, |x, _| 2.0 * x)
+/// x / sigma^ring, the same product as in [`ring_of`]; exact if sigma is 1/2 (2^ring itself may be
+/// out of range when x is denormal).
+pub(crate) fn scaled_up(x: f64, ring: usize, sigma: f64) -> f64 {
+    let factor = 1.0 / sigma;
+    (0..ring).fold(x * OUT_OF_THE_DENORMALS, |x, _| factor * x) / OUT_OF_THE_DENORMALS
 }
+
+/// 2^200: among denormal numbers multiplication by a factor below 3/2 may not change anything.
+const OUT_OF_THE_DENORMALS: f64 = (1_u128 << 100) as f64 * (1_u128 << 100) as f64;
 
 /// x^k by repeated squaring, in a fixed order of rounding.
 pub(crate) fn power(x: f64, k: usize) -> f64 {

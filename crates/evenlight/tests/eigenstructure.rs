@@ -241,7 +241,7 @@ fn eigenfunctions_are_c2_and_scale() {
                 // Scaling, at points inside patches and on their borders.
                 let (lambda, s) = (f.eigenvalue(k), [a, b]);
                 let [outer, inner] = [1.0, 0.125].map(|h| f.eval(k, sector, h * s[0], h * s[1]));
-                let expected = outer.scaled(lambda * lambda * lambda, 8.0);
+                let expected = outer.scaled(lambda * lambda * lambda, [8.0; 2]);
                 assert_c2(expected, inner, 512.0 * scale, &what);
             }
         }

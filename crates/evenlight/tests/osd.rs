@@ -3,9 +3,11 @@
 //!
 //! The golden results are those of OpenSubdiv at 100 points of every parametric quad, with feature
 //! isolation at its deepest, 10 (`tools/osd_oracle`). At that depth OpenSubdiv's patches are exact
-//! but for caps at irregular vertices of a side of 2^-10 of a quad. Of our points only the corners
-//! of quads lie in caps. There the caps interpolate the limit point, but have derivatives of their
-//! own: those are left out, at corners of quads where the cage is not regular.
+//! but for caps at irregular vertices, of a side of 2^-10 of a quad. Of our points only the corners
+//! of quads can lie in caps. There derivatives are those of the cap and are left out; the point is
+//! that of the limit surface but at darts and single faces with smooth corners, where it tends to
+//! ours with the depth (star5_dart, first coordinate: -8.008e-4, -8.069e-4, -8.101e-4 for the depths
+//! 8, 9, 10, so -8.137e-4 in the limit, which is ours).
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its data fails")]
 
 mod common;
@@ -20,6 +22,9 @@ use evenlight::{Cage, FaceId, Mesh, SchemeKind, Surface};
 
 /// Golden files have 13 decimals; 1e-12 is what is asked for.
 const TOLERANCE: f64 = 1e-12;
+
+/// At corners of quads that are in caps, for the reason above.
+const CAP_TOLERANCE: f64 = 2e-5;
 
 const GRID: [f64; 10] = [0.0, 0.03, 0.125, 0.27, 0.4, 0.5, 0.61, 0.75, 0.9, 1.0];
 
@@ -76,30 +81,37 @@ fn cage(path: &Path) -> Mesh {
 struct Difference {
     value: f64,
     derivative: f64,
+    /// Of values in caps.
+    cap: f64,
     place: String,
 }
 
 impl Difference {
-    fn note(
-        &mut self,
-        expected: &[f64],
-        found: &[f64],
-        is_value: bool,
-        place: impl Fn() -> String,
-    ) {
+    fn note(&mut self, kind: Kind, expected: &[f64], found: &[f64], place: impl Fn() -> String) {
         let pairs = expected.iter().zip(found);
         let size = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let size = if found.iter().any(|x| x.is_nan()) { f64::INFINITY } else { size };
-        if size > self.value.max(self.derivative) {
-            self.place = format!("{}: {expected:?}, not {found:?}", place());
+        let own = match kind {
+            Kind::Value => &mut self.value,
+            Kind::Derivative => &mut self.derivative,
+            Kind::Cap => &mut self.cap,
+        };
+        if size > *own {
+            *own = size;
+            self.place += &format!("\n    {}: {expected:?}, not {found:?}", place());
         }
-        let own = if is_value { &mut self.value } else { &mut self.derivative };
-        *own = own.max(size);
     }
 
     fn is_small(&self) -> bool {
-        self.value < TOLERANCE && self.derivative < TOLERANCE
+        self.value < TOLERANCE && self.derivative < TOLERANCE && self.cap < CAP_TOLERANCE
     }
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Value,
+    Derivative,
+    Cap,
 }
 
 /// Compares a surface or channel that `eval` gives at (face, corner, u, v).
@@ -117,12 +129,13 @@ fn compare(
             let place = || format!("face {face}, corner {corner}, ({u}, {v})");
             let missing = || [0; 3].map(|_| vec![f64::NAN; expected[0].len()]);
             let found = eval(quad, u, v).unwrap_or_else(missing);
-            for k in 0..3 {
-                let is_cap = k > 0 && is_irregular(surface, face, corner, is_whole, u, v);
-                if !is_cap {
-                    difference
-                        .note(&expected[k], &found[k], k == 0, || format!("{}[{k}]", place()));
-                }
+            // Seams make vertices irregular too; channels have no derivatives there.
+            let is_cap = is_irregular(surface, face, corner, is_whole, u, v)
+                || is_corner(u, v) && found[1].iter().any(|x| x.is_nan());
+            let kind = if is_cap { Kind::Cap } else { Kind::Value };
+            difference.note(kind, &expected[0], &found[0], place);
+            for k in (1..3).filter(|_| !is_cap) {
+                difference.note(Kind::Derivative, &expected[k], &found[k], place);
             }
         }
     }
@@ -135,6 +148,10 @@ fn compare(
     difference
 }
 
+fn is_corner(u: f64, v: f64) -> bool {
+    [u, v].iter().all(|&x| x == 0.0 || x == 1.0)
+}
+
 /// Whether (u,v) is a corner of the quad that is not a regular vertex of a smooth region.
 fn is_irregular(
     surface: &Surface,
@@ -144,7 +161,6 @@ fn is_irregular(
     u: f64,
     v: f64,
 ) -> bool {
-    let is_corner = [u, v].iter().all(|&x| x == 0.0 || x == 1.0);
     let topology = surface.cage().topology();
     let corners = topology.faces().corners(FaceId(face));
     let k = match (u > 0.5, v > 0.5) {
@@ -153,7 +169,7 @@ fn is_irregular(
         (true, true) => 2,
         (false, true) => 3,
     };
-    if !is_corner {
+    if !is_corner(u, v) {
         return false;
     }
     let vertex = match (is_whole, k) {
@@ -230,10 +246,11 @@ fn check(cases: &[(String, PathBuf, PathBuf)], with_textures: bool) {
     for (name, path, result) in cases {
         let (mesh, golden) = (cage(path), golden(result));
         let mut note = |what: &str, difference: Difference| {
-            let Difference { value, derivative, place } = &difference;
-            println!("{name:24} {what:14} value {value:.1e}  derivative {derivative:.1e}");
+            let Difference { value, derivative, cap, place } = &difference;
+            let numbers = format!("{value:.1e}  derivative {derivative:.1e}  caps {cap:.1e}");
+            println!("{name:24} {what:14} value {numbers}");
             if !difference.is_small() {
-                faults.push(format!("{name}, {what}: {value:.1e}, {derivative:.1e} at {place}"));
+                faults.push(format!("{name}, {what}: value {numbers}{place}"));
             }
         };
         note("positions", position_difference(&mesh, &golden["positions"]));

@@ -18,7 +18,7 @@ use std::process::Command;
 use cpu_time::ProcessTime;
 use evenlight::io::obj;
 use evenlight::tessellate::tessellate;
-use evenlight::{Cage, Mesh, QuadId, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Cage, Mesh, QuadId, SchemeKind, Surface, SurfaceOptions};
 
 use super::studded_torus;
 
@@ -120,7 +120,7 @@ fn theirs(program: &Path, mesh: &Mesh) -> Result<Times, Box<dyn Error>> {
 }
 
 fn ours(scheme: SchemeKind, mesh: &Mesh) -> Result<Times, Box<dyn Error>> {
-    let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+    let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
     let build = || -> Result<Surface, Box<dyn Error>> {
         Ok(Surface::build(Cage::new(mesh.clone())?, options)?)
     };

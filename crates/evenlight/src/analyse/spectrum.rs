@@ -34,7 +34,7 @@ use nalgebra::{Complex, DMatrix};
 use super::injectivity::jacobian_is_positive;
 use crate::basis::{MAX_TOTAL_DEGREE, multiplicity};
 use crate::patch::Patch;
-use crate::scheme::{RuleSet, Rules, SchemeKind, Subdominant};
+use crate::scheme::{Rules, SchemeKind, Subdominant, Variant};
 
 /// Grid points along each side of a patch, ends included, for the Jacobian.
 const GRID: usize = 17;
@@ -68,8 +68,12 @@ pub struct Spectrum {
 ///
 /// Eigenvalues are exact to about 1e-13 where they are simple; small multiple ones (1/64 and
 /// below) to about 1e-5, as their eigenvectors coincide.
-pub fn spectrum(scheme: SchemeKind, set: RuleSet, valence: usize) -> Option<Spectrum> {
-    let rules = scheme.rules(set, valence)?;
+pub fn spectrum(
+    scheme: SchemeKind,
+    variant: impl Into<Variant>,
+    valence: usize,
+) -> Option<Spectrum> {
+    let rules = scheme.rules(variant, valence)?;
     let subdominant = Subdominant::new(&rules);
     let lambda = subdominant.lambda;
     let mut moduli = if rules.guide.is_some() {

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use super::guide::{HomogeneousGuide, MAX_TOTAL_DEGREE};
 use super::scalar::ScalarJet;
 use crate::rings::{power, ring_of, scaled_up};
-use crate::scheme::{RuleSet, Rules, SchemeKind, guide_monomials};
+use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 
 /// The eigenfunctions of a guided scheme at one valence \[KP18-Guided, Section 5\].
 ///
@@ -45,8 +45,18 @@ impl Eigenfunctions {
     /// The eigenfunctions of `guided3` to `guided6` at `valence`; `None` for other schemes and
     /// valences without rules.
     pub fn new(kind: SchemeKind, valence: usize) -> Option<Self> {
+        Self::with_contraction(kind, Contraction::CatmullClark, valence)
+    }
+
+    /// Those of another contraction: lambda is another, and sigma in the place of 1/2. `None` also
+    /// if the scheme has no such contraction.
+    pub fn with_contraction(
+        kind: SchemeKind,
+        contraction: Contraction,
+        valence: usize,
+    ) -> Option<Self> {
         kind.guided_degree()?;
-        let rules = kind.rules(RuleSet::Generated, valence)?;
+        let rules = kind.rules(contraction, valence)?;
         let lambda = rules.guide.as_ref()?.lambda;
         let of_degree = |degree| HomogeneousGuide::all(valence, degree);
         let guides: Vec<_> = (0..=MAX_TOTAL_DEGREE).flat_map(of_degree).collect();
@@ -112,8 +122,7 @@ impl Eigenfunctions {
     /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; as in
     /// [`Rings::patch_domain`](crate::rings::Rings::patch_domain).
     pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
-        let (corner, size) = self.rules.patch_square(which);
-        corner.map(|x| [x, x + size])
+        self.rules.patch_domain(which)
     }
 
     /// The BB coefficients of function `k` on a patch, index along b fastest.
@@ -146,8 +155,9 @@ impl Eigenfunctions {
         if a.max(b) == 0.0 {
             return at_center(self.guides[k].degree());
         }
-        let ring = ring_of(a.max(b));
-        let which = self.rules.patch_at([a, b].map(|x| scaled_up(x, ring)));
+        let sigma = self.rules.sigma();
+        let ring = ring_of(a.max(b), sigma);
+        let which = self.rules.patch_at([a, b].map(|x| scaled_up(x, ring, sigma)));
         self.eval_on(k, ring, sector, which, [a, b])
     }
 
@@ -161,10 +171,13 @@ impl Eigenfunctions {
         which: usize,
         [a, b]: [f64; 2],
     ) -> ScalarJet {
-        let ([a0, b0], size) = self.rules.patch_square(which);
-        let [u, v] = [(a, a0), (b, b0)].map(|(x, x0)| (scaled_up(x, ring) - x0) / size);
-        let jet = ScalarJet::of_patch(self.degree(), self.first_ring(k, sector, which), u, v);
-        jet.scaled(self.factor(k, ring), power(2.0, ring) / size)
+        let (corner, size) = self.rules.patch_square(which);
+        let sigma = self.rules.sigma();
+        let own = |x: f64, k: usize| (scaled_up(x, ring, sigma) - corner[k]) / size[k];
+        let coefs = self.first_ring(k, sector, which);
+        let jet = ScalarJet::of_patch(self.degree(), coefs, own(a, 0), own(b, 1));
+        let speed = power(1.0 / sigma, ring);
+        jet.scaled(self.factor(k, ring), size.map(|size| speed / size))
     }
 
     /// The nodes of function `k` in front of ring 0, in the x coordinate. For the constant, which

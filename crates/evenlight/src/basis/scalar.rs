@@ -50,16 +50,15 @@ impl ScalarJet {
         }
     }
 
-    /// The jet of `factor` f(w u, w v).
-    pub fn scaled(&self, factor: f64, w: f64) -> Self {
-        let (first, second) = (factor * w, factor * w * w);
+    /// The jet of `factor` f(x u, y v).
+    pub fn scaled(&self, factor: f64, [x, y]: [f64; 2]) -> Self {
         Self {
             value: factor * self.value,
-            du: first * self.du,
-            dv: first * self.dv,
-            duu: second * self.duu,
-            duv: second * self.duv,
-            dvv: second * self.dvv,
+            du: factor * x * self.du,
+            dv: factor * y * self.dv,
+            duu: factor * x * x * self.duu,
+            duv: factor * x * y * self.duv,
+            dvv: factor * y * y * self.dvv,
         }
     }
 
@@ -81,6 +80,6 @@ mod tests {
         let jet = ScalarJet::of_patch(2, &coefs, 0.5, 0.25);
         let exact = [2.25 / 16.0, 3.0 / 16.0, 2.25 / 2.0, 2.0 / 16.0, 1.5, 4.5];
         assert!(jet.rows().iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-15), "{jet:?}");
-        assert_eq!(jet.scaled(2.0, 0.5).duu, 0.5 * jet.duu);
+        assert_eq!(jet.scaled(2.0, [0.5, 1.0]).duv, jet.duv);
     }
 }

@@ -80,6 +80,16 @@ pub enum CapError {
         /// The degree asked for.
         cap: usize,
     },
+    /// The lines between the patches of a ring are not those of a cap.
+    #[error(
+        "the patches of scheme {} meet the hole at other parameters than those of a cap when rings \
+         do not contract like Catmull-Clark's; take guided5 or guided6",
+        scheme.name()
+    )]
+    Contraction {
+        /// The scheme.
+        scheme: SchemeKind,
+    },
     /// No caps at this valence.
     #[error("there are caps for valences 3 to {MAX_VALENCE} (not 4), not for {valence}")]
     Valence {
@@ -224,7 +234,7 @@ impl Cap {
         let [[a0, _], [b0, _]] = self.patch_domain(which);
         let m = self.space.pieces as f64;
         let patch = &self.patches[s * self.patches_per_sector() + which];
-        rings.in_world(self.rings, 1.0 / m, &patch.jet((a - a0) * m, (b - b0) * m))
+        rings.in_world(self.rings, [1.0 / m; 2], &patch.jet((a - a0) * m, (b - b0) * m))
     }
 }
 
@@ -248,6 +258,9 @@ impl ValenceCap {
         if space.degree < rules.degree {
             let (ring, cap) = (rules.degree, space.degree);
             return Err(CapError::Degree { scheme, ring, cap });
+        }
+        if rules.cuts().is_some() && rules.split > 1 {
+            return Err(CapError::Contraction { scheme });
         }
         let net = subdominant.characteristic_net();
         let refined = rules.refine(&net);
@@ -312,11 +325,7 @@ impl ValenceCap {
 
 /// The parts of a sector that the patches of ring 0 cover.
 fn domains(rules: &Rules) -> Vec<[[f64; 2]; 2]> {
-    let domain = |which: usize| {
-        let (corner, size) = rules.patch_square(which);
-        corner.map(|x| [x, x + size])
-    };
-    (0..rules.patches_per_sector()).map(domain).collect()
+    (0..rules.patches_per_sector()).map(|which| rules.patch_domain(which)).collect()
 }
 
 /// chi(1,0) turned by half a sector: chi over a coordinate whose real axis is the bisectrix of sector

@@ -36,18 +36,16 @@ pub(crate) struct ChannelNet {
 }
 
 impl ChannelNet {
-    /// The net of a face-varying channel of `cage`.
-    pub(crate) fn new(cage: &Cage, channel: &Primvar) -> Self {
-        Self::of_values(cage, &channel.indices, cage.tags().face_varying)
-    }
-
-    fn of_values(cage: &Cage, values: &[u32], rule: FaceVaryingRule) -> Self {
+    /// The net of a face-varying channel of `cage`, whose positions have this boundary rule.
+    pub(crate) fn new(cage: &Cage, channel: &Primvar, boundary: BoundaryRule) -> Self {
         let topology = cage.topology();
+        let values = &channel.indices[..];
         let mut splitter = Splitter {
             cage,
             topology,
             values,
-            rule,
+            boundary,
+            rule: cage.tags().face_varying,
             edge_sharpness: edge_sharpness(cage),
             vertex_sharpness: vertex_sharpness(cage),
             of_corner: vec![VertexId(0); values.len()],
@@ -84,17 +82,11 @@ fn edge_sharpness(cage: &Cage) -> Vec<f64> {
     let topology = cage.topology();
     let mut sharpness = vec![0.0; topology.half_edges().len()];
     for crease in &cage.tags().creases {
-        for h in half_edges_of(topology, crease.edge) {
+        for h in super::sharpness::half_edges_of(topology, crease.edge) {
             sharpness[h.index()] = crease.sharpness;
         }
     }
     sharpness
-}
-
-/// The half-edges between two vertices.
-fn half_edges_of(t: &Topology, [a, b]: [VertexId; 2]) -> impl Iterator<Item = HalfEdgeId> {
-    let at = |v: VertexId, w: VertexId| t.ring(v).find(move |&h| t.target(h) == w);
-    at(a, b).into_iter().chain(at(b, a))
 }
 
 /// The sharpness of every vertex.
@@ -130,6 +122,7 @@ struct Splitter<'a> {
     cage: &'a Cage,
     topology: &'a Topology,
     values: &'a [u32],
+    boundary: BoundaryRule,
     rule: FaceVaryingRule,
     edge_sharpness: Vec<f64>,
     vertex_sharpness: Vec<f64>,
@@ -215,8 +208,8 @@ impl Splitter<'_> {
     /// Whether the boundary of the cage is sharp at a vertex without seams.
     fn is_sharp_boundary(&self, fans: &[Fan]) -> bool {
         let is_tip = fans.iter().all(|fan| fan.faces.len() == 1);
-        let tips_are_sharp = self.rule != FaceVaryingRule::None
-            || self.cage.tags().boundary == BoundaryRule::EdgeAndCorner;
+        let tips_are_sharp =
+            self.rule != FaceVaryingRule::None || self.boundary == BoundaryRule::EdgeAndCorner;
         self.has_sharp_seams() || is_tip && tips_are_sharp
     }
 

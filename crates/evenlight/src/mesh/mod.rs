@@ -7,15 +7,21 @@
 
 pub(crate) mod channel;
 mod check;
+mod fan;
 mod fault;
 pub mod isolation;
+mod nets;
 mod refine;
+mod sharpness;
 mod tags;
 mod topology;
 
 pub use check::{Cage, PrimvarFault};
-pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Warning};
+pub use fan::Fan;
+pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
+pub(crate) use nets::{cnet_vertices, fan_vertices};
+pub use sharpness::VertexRule;
 pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,
     Primvar, Tags,

@@ -80,19 +80,23 @@ pub(super) enum Channel {
 impl Channel {
     fn new(cage: &Cage, primvar: &Primvar, options: SurfaceOptions) -> Self {
         let parts = (0..primvar.width).step_by(3);
-        let surface = |mesh| Self::surface(mesh, options);
         match primvar.interpolation {
             Interpolation::Varying => Self::Linear,
             Interpolation::FaceVarying if cage.tags().face_varying == FaceVaryingRule::All => {
                 Self::Linear
             }
             Interpolation::FaceVarying => {
-                let net = ChannelNet::new(cage, primvar);
-                Self::Smooth(parts.map(|first| surface(net.mesh(primvar, first))).collect())
+                let boundary = options.boundary.unwrap_or(cage.tags().boundary);
+                let net = ChannelNet::new(cage, primvar, boundary);
+                // The channel has a boundary rule of its own.
+                let options = SurfaceOptions { boundary: None, ..options };
+                let surface = |first| Self::surface(net.mesh(primvar, first), options);
+                Self::Smooth(parts.map(surface).collect())
             }
-            Interpolation::Vertex => Self::Smooth(
-                parts.map(|first| surface(as_positions(cage, primvar, first))).collect(),
-            ),
+            Interpolation::Vertex => {
+                let surface = |first| Self::surface(as_positions(cage, primvar, first), options);
+                Self::Smooth(parts.map(surface).collect())
+            }
         }
     }
 
