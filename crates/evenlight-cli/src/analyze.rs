@@ -16,7 +16,7 @@ use evenlight::surface::ExtraordinaryPoint;
 use evenlight::{SchemeKind, Surface, SurfaceOptions};
 
 use crate::error::Failure;
-use crate::input::{self, Source};
+use crate::input::{self, CageArg};
 use crate::options::{BoundaryArg, RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
@@ -27,8 +27,8 @@ use record::Document;
 /// Arguments of `evenlight analyze`.
 #[derive(Args, Debug)]
 pub struct AnalyzeArgs {
-    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
-    cage: Source,
+    #[command(flatten)]
+    cage: CageArg,
 
     /// Schemes to compare
     #[arg(long, value_delimiter = ',', default_value = "cc,qas4", value_parser = scheme_parser())]
@@ -76,7 +76,7 @@ pub const LEGEND: [&str; 5] = [
 
 /// Runs `evenlight analyze`.
 pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
-    let edits = args.q.read(&args.cage, &args.schemes)?;
+    let edits = args.q.read(&args.cage.source, &args.schemes)?;
     let cage = input::read_cage(&args.cage)?;
     let progress = Progress::new(args.schemes.len(), quiet);
     let mut analyses = Vec::new();
@@ -86,12 +86,12 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
             ..args.rules.options_among(&args.schemes, scheme)
         };
         progress.stage(format!("Analysing {}", scheme.name()));
-        let mut surface = input::build(Arc::clone(&cage), options, &args.cage)?;
+        let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;
         analyses.push(Analysis::of(surface, args.rings.into()));
         progress.step();
     }
-    input::report_omitted(&analyses[0].surface, &args.cage)?;
+    input::report_omitted(&analyses[0].surface, &args.cage.source)?;
     if args.json {
         args.output.write_json(&Document::new(&analyses, args.rings.into()))
     } else {

@@ -13,15 +13,15 @@ use evenlight::{Cage, SchemeKind, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
-use crate::input::{self, Source, WHY_OMITTED, omitted_text};
+use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text};
 use crate::options::{BoundaryArg, scheme_parser};
 use crate::output::Target;
 
 /// Arguments of `evenlight check`.
 #[derive(Args, Debug)]
 pub struct CheckArgs {
-    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
-    cage: Source,
+    #[command(flatten)]
+    cage: CageArg,
 
     /// The scheme that extraordinary points are to get
     #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
@@ -56,11 +56,15 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
         args.output.write_json(&report)?;
     }
     for warning in &report.warnings {
-        warn(format_args!("{}: {warning}", args.cage));
+        warn(format_args!("{}: {warning}", args.cage.source));
     }
-    let refused = |error: &LoadError| Failure::Unusable(format!("{}: {error}", args.cage));
+    let refused = |error: &LoadError| Failure::Unusable(format!("{}: {error}", args.cage.source));
     result.as_ref().map_err(refused)?;
-    if args.json { Ok(()) } else { args.output.write(|out| report.write_text(&args.cage, out)) }
+    if args.json {
+        Ok(())
+    } else {
+        args.output.write(|out| report.write_text(&args.cage.source, out))
+    }
 }
 
 /// What is known of a cage. Vertices and faces are counted from 0.

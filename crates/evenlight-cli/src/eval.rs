@@ -50,7 +50,7 @@ const BATCH: usize = 1 << 14;
 pub fn run(args: &EvalArgs, quiet: bool) -> Result<(), Failure> {
     let SurfaceArgs { cage, q, .. } = &args.surface;
     let q = q.file.iter().map(|file| ("--q", file));
-    let sources = [("cage", cage), ("points", &args.points)];
+    let sources = [("cage", &cage.source), ("points", &args.points)];
     input::refuse_shared_stdin(&sources.into_iter().chain(q).collect::<Vec<_>>())?;
     let surface = input::read_surface(&args.surface)?;
     let text = args.points.read_text()?;

@@ -8,7 +8,9 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use clap::Args;
 use evenlight::io::load::{Format, LoadError, Loaded};
+use evenlight::surface::SurfaceError;
 use evenlight::{Cage, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
@@ -71,6 +73,25 @@ fn read_stdin() -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// The cage, and which one if there are several in the file.
+#[derive(Args, Clone, Debug)]
+pub struct CageArg {
+    /// The cage, .obj, .ply or .usda: quads and n-gons, counter-clockwise; `-` for stdin
+    #[arg(value_name = "CAGE")]
+    pub source: Source,
+
+    /// The mesh in a USD file with several, as in /World/Cage
+    #[arg(long, value_name = "PATH")]
+    prim: Option<String>,
+}
+
+impl From<Source> for CageArg {
+    /// The only cage in `source`.
+    fn from(source: Source) -> Self {
+        Self { source, prim: None }
+    }
+}
+
 /// Refuses to read two things from stdin, as wrong usage.
 pub fn refuse_shared_stdin(sources: &[(&str, &Source)]) -> Result<(), Failure> {
     let from_stdin = sources.iter().filter(|(_, source)| **source == Source::Stdin);
@@ -83,32 +104,38 @@ pub fn refuse_shared_stdin(sources: &[(&str, &Source)]) -> Result<(), Failure> {
 
 /// The surface that `args` ask for; what is ignored or left out is said on stderr.
 pub fn read_surface(args: &SurfaceArgs) -> Result<Surface, Failure> {
-    let edits = args.q.read(&args.cage, &[args.scheme])?;
-    let mut surface = build(read_cage(&args.cage)?, args.options(), &args.cage)?;
-    report_omitted(&surface, &args.cage)?;
+    let source = &args.cage.source;
+    let edits = args.q.read(source, &[args.scheme])?;
+    let mut surface = build(read_cage(&args.cage)?, args.options(), source)?;
+    report_omitted(&surface, source)?;
     edits.apply(&mut surface)?;
     Ok(surface)
 }
 
-/// The cage in `source`; what is ignored is said on stderr.
-pub fn read_cage(source: &Source) -> Result<Arc<Cage>, Failure> {
+/// The cage that `arg` names; what is ignored is said on stderr.
+pub fn read_cage(arg: &CageArg) -> Result<Arc<Cage>, Failure> {
+    let source = &arg.source;
     let refused = |error: LoadError| Failure::Unusable(format!("{source}: {error}"));
-    let (cage, notices) = load(source)?.check().map_err(refused)?;
+    let (cage, notices) = load(arg)?.check().map_err(refused)?;
     for notice in notices {
         warn(format_args!("{source}: {notice}"));
     }
     Ok(Arc::new(cage))
 }
 
-/// The mesh in `source`, not checked.
-pub fn load(source: &Source) -> Result<Loaded, Failure> {
-    read_mesh(source)?.map_err(|error| Failure::Unusable(format!("{source}: {error}")))
+/// The mesh that `arg` names, not checked.
+pub fn load(arg: &CageArg) -> Result<Loaded, Failure> {
+    read_mesh(arg)?.map_err(|error| Failure::Unusable(format!("{}: {error}", arg.source)))
 }
 
-/// The mesh in `source`, not checked, or why its bytes are none.
-pub fn read_mesh(source: &Source) -> Result<Result<Loaded, LoadError>, Failure> {
-    let bytes = source.read()?;
-    Ok(source.format().unwrap_or_else(|| Format::of_content(&bytes)).read(&bytes))
+/// The mesh that `arg` names, not checked, or why the bytes are none.
+pub fn read_mesh(arg: &CageArg) -> Result<Result<Loaded, LoadError>, Failure> {
+    let bytes = arg.source.read()?;
+    let format = arg.source.format().unwrap_or_else(|| Format::of_content(&bytes));
+    if arg.prim.is_some() && format != Format::Usda {
+        return Err(Failure::Usage(format!("{}: --prim is for USD files only", arg.source)));
+    }
+    Ok(format.read(&bytes, arg.prim.as_deref()))
 }
 
 /// The surface over `cage`, which was read from `source`.
@@ -117,7 +144,10 @@ pub fn build(
     options: SurfaceOptions,
     source: &Source,
 ) -> Result<Surface, Failure> {
-    Surface::build(cage, options).map_err(|error| Failure::Unusable(format!("{source}: {error}")))
+    Surface::build(cage, options).map_err(|error| match error {
+        SurfaceError::Contraction(error) => Failure::Usage(error.to_string()),
+        error => Failure::Unusable(format!("{source}: {error}")),
+    })
 }
 
 /// Says on stderr which faces have no surface.

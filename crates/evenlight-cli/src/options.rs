@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use evenlight::mesh::BoundaryRule;
 use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
 
-use crate::input::Source;
+use crate::input::CageArg;
 use crate::q::QArg;
 
 /// Options that stand before or after any subcommand.
@@ -26,8 +26,8 @@ pub struct Global {
 /// The cage and the rules that make a surface of it.
 #[derive(Args, Clone, Debug)]
 pub struct SurfaceArgs {
-    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
-    pub cage: Source,
+    #[command(flatten)]
+    pub cage: CageArg,
 
     /// Subdivision scheme; what it is like around an extraordinary point of valence n
     #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
@@ -150,6 +150,9 @@ fn about_scheme(scheme: SchemeKind) -> &'static str {
         SchemeKind::Guided4 => "Guided C2: bi-4, 12n patches per ring; C1, curvature bounded",
         SchemeKind::Guided5 => "Guided C2: bi-5, 3n patches per ring; C1, curvature bounded",
         SchemeKind::Guided6 => "Guided C2: bi-6, 3n patches per ring; C2, curvature continuous",
+        SchemeKind::Fair4 => "Fairness-optimal: QAS4's net with the rules of least energy, bi-4",
+        SchemeKind::Fair4d => "Fairness-optimal: EG's net with the rules of least energy, bi-4",
+        SchemeKind::Fair3 => "Fairness-optimal: QAS3's net with the rules of least energy, bi-3",
     }
 }
 

@@ -174,11 +174,12 @@ pub fn view_at(surface: &Surface, vertex: VertexId) -> Option<View> {
 
 /// The surfaces to show, at least one.
 fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
-    let SurfaceArgs { cage: source, scheme, q, .. } = &args.surface;
+    let SurfaceArgs { cage, scheme, q, .. } = &args.surface;
+    let source = &cage.source;
     let single = [*scheme];
     let schemes = if args.compare.is_empty() { &single[..] } else { &args.compare };
     let edits = q.read(source, schemes)?;
-    let cage = input::read_cage(source)?;
+    let cage = input::read_cage(cage)?;
     let build = |&scheme| -> Result<Surface, Failure> {
         let options = args.surface.rules.options_among(schemes, scheme);
         let mut surface = input::build(Arc::clone(&cage), options, source)?;

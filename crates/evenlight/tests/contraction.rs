@@ -107,6 +107,39 @@ fn every_parameter_is_in_the_patch_that_has_it() {
     }
 }
 
+/// The range of H over ring l shrinks by lambda per ring with bi-6 rings; with the others it has a
+/// limit.
+#[test]
+fn curvature_is_continuous_with_bi_6_rings_and_bounded_with_the_others() {
+    for (n, contraction) in [(3, 0.5), (5, 0.5), (6, 0.4), (8, 0.5), (10, 0.6), (20, 0.5)] {
+        let contraction = Contraction::Lambda(contraction);
+        for scheme in GUIDED {
+            let rings = Rings::from_cnet(&random_cnet(n), scheme, contraction).unwrap();
+            let (_, center) = rings.center_curvature().unwrap();
+            let spread = |ring: i32| {
+                let (h, s) = (rings.sigma().powi(ring), rings.sigma());
+                let radii = [1.0, 0.7, 0.4].map(|t| h * (s + (1.0 - s) * t));
+                let around = (0..n).flat_map(|s| (0..=8).map(move |k| (s, f64::from(k) / 8.0)));
+                let means = around.flat_map(|(s, t)| {
+                    let rings = &rings;
+                    radii.into_iter().flat_map(move |r| {
+                        [[r, t * r], [t * r, r]].map(|[a, b]| rings.eval(s, a, b).mean)
+                    })
+                });
+                means.fold(0.0_f64, |most, mean| most.max((mean - center).abs()))
+            };
+            let name = format!("{} n = {n}, {contraction}", scheme.name());
+            if scheme == SchemeKind::Guided6 {
+                let factor = spread(21) / spread(20);
+                assert!((factor / rings.lambda() - 1.0).abs() < 0.01, "{name}: {factor}");
+            } else {
+                assert!((spread(60) / spread(80) - 1.0).abs() < 1e-3, "{name}");
+                assert!(spread(60) > 1e-9, "{name}");
+            }
+        }
+    }
+}
+
 /// Curvature has the same limit from deep rings at every contraction of one guide's degree.
 #[test]
 fn any_valence_to_32_has_rings_that_tend_to_the_curvature_of_the_guide() {
