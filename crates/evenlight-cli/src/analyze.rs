@@ -13,11 +13,11 @@ use evenlight::analyse::curvature::{
 };
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{SchemeKind, Surface};
+use evenlight::{SchemeKind, Surface, SurfaceOptions};
 
 use crate::error::Failure;
 use crate::input::{self, CageArg};
-use crate::options::{RulesArg, scheme_parser};
+use crate::options::{BoundaryArg, RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
 use crate::q::QArg;
@@ -38,10 +38,13 @@ pub struct AnalyzeArgs {
     rules: RulesArg,
 
     #[command(flatten)]
+    boundary: BoundaryArg,
+
+    #[command(flatten)]
     q: QArg,
 
     /// Number of rings around every extraordinary point, 1 to 100; ring k reaches to 2^-k of a
-    /// sector
+    /// sector (at contraction cc)
     #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=100))]
     rings: u8,
 
@@ -78,7 +81,10 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(args.schemes.len(), quiet);
     let mut analyses = Vec::new();
     for &scheme in &args.schemes {
-        let options = args.rules.options_among(&args.schemes, scheme);
+        let options = SurfaceOptions {
+            boundary: args.boundary.rule(),
+            ..args.rules.options_among(&args.schemes, scheme)
+        };
         progress.stage(format!("Analysing {}", scheme.name()));
         let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;

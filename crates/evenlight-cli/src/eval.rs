@@ -12,7 +12,7 @@ use evenlight::{FaceId, QuadId, Surface, SurfacePoint};
 use rayon::prelude::*;
 
 use crate::error::Failure;
-use crate::input::{self, Source};
+use crate::input::{self, Source, WHY_OMITTED};
 use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
@@ -204,10 +204,7 @@ impl<'a> Row<'a> {
         let size = faces.corners(self.face).len();
         let corner = corner_of(self.face, size, self.corner).map_err(fault)?;
         if surface.is_omitted(self.face) {
-            return Err(fault(format!(
-                "face {} is left out: faces that touch a boundary have no surface",
-                self.face.0
-            )));
+            return Err(fault(format!("face {} is left out ({WHY_OMITTED})", self.face.0)));
         }
         Ok(surface.quad(self.face, corner).expect("face and corner were checked"))
     }
