@@ -162,7 +162,7 @@ fn measured_obstacles() -> Result<Vec<Row>, Box<dyn Error>> {
 }
 
 /// `f` of all items, in their order, by as many threads as there are cores.
-fn map_on_threads<A: Sync, B: Send>(items: &[A], f: impl Fn(&A) -> B + Sync) -> Vec<B> {
+pub fn map_on_threads<A: Sync, B: Send>(items: &[A], f: impl Fn(&A) -> B + Sync) -> Vec<B> {
     let next = AtomicUsize::new(0);
     let work = || {
         let numbers = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));

@@ -144,12 +144,13 @@ fn role_name(role: Role) -> String {
     match role {
         Role::Regular => "regular".to_owned(),
         Role::Ring(k) => format!("ring-{k}"),
+        Role::Cap => "cap".to_owned(),
     }
 }
 
 fn ring(role: Role) -> Option<usize> {
     match role {
-        Role::Regular => None,
+        Role::Regular | Role::Cap => None,
         Role::Ring(k) => Some(k),
     }
 }

@@ -255,6 +255,17 @@ impl Rings {
         self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring)))
     }
 
+    /// Parameters of a sector as those of the hole in front of ring `ring`, the hole being the unit
+    /// square.
+    pub(crate) fn in_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
+        at.map(|x| scaled_up(x, ring))
+    }
+
+    /// The inverse of [`Rings::in_hole`].
+    pub(crate) fn from_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
+        at.map(|x| (0..ring).fold(x, |x, _| 0.5 * x))
+    }
+
     /// A patch at (A,B) = 2^ring (a,b).
     fn eval_scaled(&self, ring: usize, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
         let ([a0, b0], size) = self.rules.rules.patch_square(which);
