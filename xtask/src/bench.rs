@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use evenlight::io::obj;
-use evenlight::{Mesh, Point, QuadId, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Mesh, Point, QuadId, SchemeKind, Surface, SurfaceOptions};
 
 /// Cells around the torus, the short way and the long way.
 const CELLS: [usize; 2] = [25, 50];
@@ -53,7 +53,7 @@ fn measure(name: &str, text: &[u8]) -> Result<(), Box<dyn std::error::Error>> {
     report("read and check", clock, cage.topology().faces().len(), "faces");
     let cage = Arc::new(cage);
     for scheme in SchemeKind::ALL {
-        let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+        let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
         let clock = Instant::now();
         let surface = Surface::build(cage.clone(), options)?;
         let points = surface.extraordinary_points().len();

@@ -12,7 +12,7 @@ use evenlight::io::obj;
 use evenlight::net::Quadratic;
 use evenlight::picture::{Picture, RenderOptions, Style, View, compare, render};
 use evenlight::point::{add, scale};
-use evenlight::{Cage, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -63,7 +63,7 @@ fn cage(path: &str) -> Result<Arc<Cage>> {
 }
 
 fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface> {
-    Ok(Surface::build(cage.clone(), SurfaceOptions { scheme, rules: RuleSet::Generated })?)
+    Ok(Surface::build(cage.clone(), SurfaceOptions { scheme, ..SurfaceOptions::default() })?)
 }
 
 /// The demo object, as the first thing of the README.

@@ -15,7 +15,7 @@ use evenlight::analyse::curvature::{Range, RingCurvature, curvature_over};
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::io::obj;
 use evenlight::surface::Role;
-use evenlight::{Cage, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
 /// Measure the shape of all schemes over the obstacle course and write the tables of
 /// crates/evenlight/docs/06-shape.md.
@@ -147,7 +147,7 @@ fn read(path: &Path) -> Result<Arc<Cage>, Box<dyn Error>> {
 }
 
 fn build(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface, Box<dyn Error>> {
-    let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+    let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
     Ok(Surface::build(cage.clone(), options)?)
 }
 

@@ -10,7 +10,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 14] = [
+const LAYERS: [&str; 15] = [
     "point",
     "angle",
     "parallel",
@@ -20,6 +20,7 @@ const LAYERS: [&str; 14] = [
     "scheme",
     "rings",
     "cap",
+    "basis",
     "surface",
     "tessellate",
     "analyse",

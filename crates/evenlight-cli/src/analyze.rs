@@ -13,7 +13,7 @@ use evenlight::analyse::curvature::{
 };
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{SchemeKind, Surface, SurfaceOptions};
+use evenlight::{SchemeKind, Surface};
 
 use crate::error::Failure;
 use crate::input::{self, Source};
@@ -78,7 +78,7 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(args.schemes.len(), quiet);
     let mut analyses = Vec::new();
     for &scheme in &args.schemes {
-        let options = SurfaceOptions { scheme, rules: args.rules.rules.into() };
+        let options = args.rules.options_among(&args.schemes, scheme);
         progress.stage(format!("Analysing {}", scheme.name()));
         let mut surface = input::build(Arc::clone(&cage), options, &args.cage)?;
         edits.apply(&mut surface)?;

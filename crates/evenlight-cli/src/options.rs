@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
+use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
 
 use crate::input::Source;
 use crate::q::QArg;
@@ -39,18 +39,40 @@ pub struct SurfaceArgs {
     pub q: QArg,
 }
 
-/// Which tables of weights the scheme takes.
+/// Which rules the scheme takes.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct RulesArg {
     /// Tables of weights of the scheme (`cc` is a formula and has none)
     #[arg(long, value_enum, default_value_t = Rules::Generated)]
     pub rules: Rules,
+
+    /// How fast the rings of guided schemes contract: `cc` as Catmull-Clark's, `half` by 1/2 at
+    /// every valence, or any factor between 0.3 and 0.7; other schemes contract as they do
+    #[arg(long, value_name = "cc|half|LAMBDA", default_value = "cc")]
+    pub contraction: Contraction,
+}
+
+impl RulesArg {
+    /// How a surface of the only scheme is built.
+    pub fn options(&self, scheme: SchemeKind) -> SurfaceOptions {
+        SurfaceOptions { scheme, rules: self.rules.into(), contraction: self.contraction }
+    }
+
+    /// How a surface of one of several schemes is built: those with one contraction keep it.
+    pub fn options_among(&self, schemes: &[SchemeKind], scheme: SchemeKind) -> SurfaceOptions {
+        let has = |scheme: &SchemeKind| scheme.check_contraction(self.contraction).is_ok();
+        let options = self.options(scheme);
+        if schemes.iter().any(has) && !has(&scheme) {
+            return SurfaceOptions { contraction: Contraction::CatmullClark, ..options };
+        }
+        options
+    }
 }
 
 impl SurfaceArgs {
     /// Scheme and rules in the library's terms.
     pub fn options(&self) -> SurfaceOptions {
-        SurfaceOptions { scheme: self.scheme, rules: self.rules.rules.into() }
+        self.rules.options(self.scheme)
     }
 }
 

@@ -71,6 +71,7 @@ fn write_json(surface: &Surface, rings: usize, out: &mut dyn Write) -> io::Resul
     let document = Document {
         scheme: options.scheme.name(),
         rules: rules_name(options),
+        contraction: options.contraction.to_string(),
         rings,
         patches: AllPatches { surface, rings },
     };
@@ -83,6 +84,8 @@ struct Document<'a> {
     scheme: &'static str,
     /// `null` for schemes without tables.
     rules: Option<&'static str>,
+    /// `cc`, `half` or a number.
+    contraction: String,
     rings: usize,
     patches: AllPatches<'a>,
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use evenlight::picture::{self, MAX_SIDE, Picture, RenderOptions, View};
-use evenlight::{SchemeKind, Surface, SurfaceOptions, VertexId};
+use evenlight::{SchemeKind, Surface, VertexId};
 
 use crate::error::Failure;
 use crate::input;
@@ -175,13 +175,12 @@ pub fn view_at(surface: &Surface, vertex: VertexId) -> Option<View> {
 /// The surfaces to show, at least one.
 fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
     let SurfaceArgs { cage: source, scheme, q, .. } = &args.surface;
-    let options = args.surface.options();
     let single = [*scheme];
     let schemes = if args.compare.is_empty() { &single[..] } else { &args.compare };
     let edits = q.read(source, schemes)?;
     let cage = input::read_cage(source)?;
     let build = |&scheme| -> Result<Surface, Failure> {
-        let options = SurfaceOptions { scheme, ..options };
+        let options = args.surface.rules.options_among(schemes, scheme);
         let mut surface = input::build(Arc::clone(&cage), options, source)?;
         edits.apply(&mut surface)?;
         Ok(surface)

@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 
 use clap::Args;
 use evenlight::analyse::spectrum::{Spectrum, spectrum};
-use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
+use evenlight::scheme::ContractionError;
+use evenlight::{RuleSet, SchemeKind, SurfaceOptions, Variant};
 use serde::Serialize;
 
 use crate::error::Failure;
@@ -38,7 +39,7 @@ pub struct SpectrumArgs {
 
 /// Runs `evenlight spectrum`.
 pub fn run(args: &SpectrumArgs, quiet: bool) -> Result<(), Failure> {
-    let options = SurfaceOptions { scheme: args.scheme, rules: args.rules.rules.into() };
+    let options = args.rules.options(args.scheme);
     let spectra = spectra(options, &args.valence, quiet)?;
     if args.json {
         args.output.write_json(&Document::new(options, &spectra))
@@ -57,22 +58,25 @@ pub fn spectra(
     valences: &RangeInclusive<usize>,
     quiet: bool,
 ) -> Result<Vec<Spectrum>, Failure> {
-    let SurfaceOptions { scheme, rules } = options;
+    let (scheme, variant) = (options.scheme, options.variant());
+    let wrong = |error: ContractionError| Failure::Usage(error.to_string());
+    scheme.check_contraction(options.contraction).map_err(wrong)?;
     let is_range = valences.start() < valences.end();
     let valences: Vec<usize> = valences.clone().filter(|&n| !(is_range && n == 4)).collect();
-    if let Some(&n) = valences.iter().find(|&&n| !scheme.has_rules(rules, n)) {
-        return Err(Failure::Usage(no_rules(scheme, rules, n)));
+    if let Some(&n) = valences.iter().find(|&&n| !scheme.has_rules(variant, n)) {
+        return Err(Failure::Usage(no_rules(options, n)));
     }
     let progress = Progress::new(valences.len(), quiet);
     progress.stage("Computing eigenvalues");
-    let spectra = valences.into_iter().filter_map(|n| spectrum(scheme, rules, n));
+    let spectra = valences.into_iter().filter_map(|n| spectrum(scheme, variant, n));
     Ok(spectra.inspect(|_| progress.step()).collect())
 }
 
-fn no_rules(scheme: SchemeKind, rules: RuleSet, valence: usize) -> String {
-    let kind = rules_name(SurfaceOptions { scheme, rules }).map(|r| r.to_owned() + " ");
-    let others = RuleSet::Generated;
-    let advice = if rules != others && scheme.has_rules(others, valence) {
+fn no_rules(options: SurfaceOptions, valence: usize) -> String {
+    let (scheme, variant) = (options.scheme, options.variant());
+    let kind = rules_name(options).map(|r| r.to_owned() + " ");
+    let others = Variant { rules: RuleSet::Generated, ..variant };
+    let advice = if variant != others && scheme.has_rules(others, valence) {
         format!("; its generated rules are for {}", scheme.valences(others))
     } else {
         String::new()
@@ -81,7 +85,7 @@ fn no_rules(scheme: SchemeKind, rules: RuleSet, valence: usize) -> String {
         "the scheme {} has {}rules for the valences {}, not for {valence}{advice}",
         scheme.name(),
         kind.unwrap_or_default(),
-        scheme.valences(rules)
+        scheme.valences(variant)
     )
 }
 
@@ -119,6 +123,8 @@ pub struct Document<'a> {
     scheme: &'static str,
     /// `null` for schemes without tables.
     rules: Option<&'static str>,
+    /// `cc`, `half` or a number.
+    contraction: String,
     spectra: Vec<Record<'a>>,
 }
 
@@ -157,6 +163,7 @@ impl<'a> Document<'a> {
         Self {
             scheme: options.scheme.name(),
             rules: rules_name(options),
+            contraction: options.contraction.to_string(),
             spectra: spectra.iter().map(record).collect(),
         }
     }

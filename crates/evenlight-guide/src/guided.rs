@@ -15,7 +15,8 @@
 //! ```
 //!
 //! - [`space`]: the G2 guides of valence n, the direct sum of the eigenspaces of the subdivision;
-//!   [`determining`] has the paper's explicit formulas for them.
+//!   [`determining`] has the paper's explicit formulas for them, [`waves`] takes them apart by
+//!   frequencies around the point.
 //! - [`net`]: the c-net, its centre and the second-order data of the surrounding surface.
 //! - [`characteristic`]: chi, for Catmull-Clark subdivision and for any other speed lambda.
 //! - [`composition`]: jets of a guide composed with a map.
@@ -23,6 +24,7 @@
 //! - [`fit`]: the guide of a c-net, the fairest by the measures of [`fairness`].
 //! - [`cap`]: bi-6 patches that close the hole after any ring.
 //! - [`table`]: what a library needs of each valence, in integers.
+//! - [`rounded`]: the same for any valence and contraction, at run time.
 //! - [`bb`]: univariate Bernstein-Bezier tools; [`solutions`]: systems that leave freedom.
 //!
 //! Sectors and lines are as everywhere in this crate: sector s lies between line s-1, along which
@@ -42,6 +44,8 @@ pub mod fit;
 pub mod net;
 pub mod pieces;
 pub mod rings;
+pub mod rounded;
 pub mod solutions;
 pub mod space;
 pub mod table;
+pub mod waves;

@@ -20,9 +20,9 @@
 //! assert_eq!(cage.interior_valences(), [(3, 8)].into());
 //!
 //! // Build a surface over it.
-//! use evenlight::{RuleSet, SchemeKind, Surface, SurfaceOptions};
+//! use evenlight::{SchemeKind, Surface, SurfaceOptions};
 //!
-//! let options = SurfaceOptions { scheme: SchemeKind::Qas4, rules: RuleSet::Generated };
+//! let options = SurfaceOptions { scheme: SchemeKind::Qas4, ..SurfaceOptions::default() };
 //! let surface = Surface::build(Arc::new(cage), options)?;
 //! assert_eq!(surface.extraordinary_points().len(), 8);
 //!
@@ -60,6 +60,7 @@
 //! | [`scheme`] | which rules there are |
 //! | [`rings`] | the surface around one extraordinary point at any depth |
 //! | [`cap`] | finitely many patches instead of all further rings |
+//! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
@@ -73,6 +74,7 @@
 
 pub mod analyse;
 mod angle;
+pub mod basis;
 pub mod cap;
 pub mod io;
 pub mod mesh;
@@ -90,7 +92,7 @@ pub mod tessellate;
 pub use mesh::{Cage, FaceId, Mesh, VertexId};
 pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
-pub use scheme::{RuleSet, SchemeKind};
+pub use scheme::{Contraction, RuleSet, SchemeKind, Variant};
 pub use surface::{QuadId, Surface, SurfaceOptions};
 
 /// The examples of the README are tested.

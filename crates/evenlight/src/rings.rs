@@ -6,8 +6,8 @@
 //! ```text
 //!  b ^
 //!  1 +-------+---+---+   ring l = 0, 1, 2, ... covers 2^-(l+1) < max(a,b) <= 2^-l
-//!    |       |       |   with three patches or more
-//!    |       | ring 0|
+//!    |       |       |   with three patches or more; with another contraction than
+//!    |       | ring 0|   Catmull-Clark's there is some sigma in the place of 1/2
 //! .5 +---+---+       +
 //!    | r 1   |       |
 //!    +-+-+   |       |
@@ -34,7 +34,7 @@ use std::sync::{Arc, OnceLock};
 use crate::net::{CNet, DNet, Expansion, Quadratic};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add, add_scaled, cross, dot, norm, scale, sub, unit};
-use crate::scheme::{RuleSet, Rules, SchemeKind, Subdominant};
+use crate::scheme::{Rules, SchemeKind, Subdominant, Variant};
 
 /// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
 /// valence.
@@ -47,8 +47,8 @@ pub(crate) struct ValenceRules {
 
 impl ValenceRules {
     /// `None` if the scheme has no rules for this valence.
-    pub(crate) fn new(kind: SchemeKind, set: RuleSet, valence: usize) -> Option<Self> {
-        let rules = kind.rules(set, valence)?;
+    pub(crate) fn new(kind: SchemeKind, variant: Variant, valence: usize) -> Option<Self> {
+        let rules = kind.rules(variant, valence)?;
         let subdominant = Subdominant::new(&rules);
         Some(Self { kind, rules, subdominant })
     }
@@ -92,7 +92,7 @@ pub struct Rings {
 }
 
 /// Rings that are kept once they were asked for. A parameter closer to the centre than
-/// 2^-64 is made of the last of them anew, in time proportional to its depth.
+/// 2^-64 (sigma^64) is made of the last of them anew, in time proportional to its depth.
 const CACHED_RINGS: usize = 64;
 
 /// Tangents shorter than this part of the net, or closer to parallel, are none: rounding leaves
@@ -118,15 +118,15 @@ struct Ring {
 
 impl Rings {
     /// The surface over a c-net; `None` if the scheme has no rules for its valence.
-    pub fn from_cnet(cnet: &CNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
-        let rules = Arc::new(ValenceRules::new(kind, set, cnet.valence())?);
+    pub fn from_cnet(cnet: &CNet, kind: SchemeKind, variant: impl Into<Variant>) -> Option<Self> {
+        let rules = Arc::new(ValenceRules::new(kind, variant.into(), cnet.valence())?);
         Some(Self::with_rules(cnet, rules, None))
     }
 
     /// The surface over a d-net with c_0 by [`DNet::center`]; `None` if the scheme has no rules
     /// for its valence or does not work on d-nets.
-    pub fn from_dnet(dnet: &DNet, kind: SchemeKind, set: RuleSet) -> Option<Self> {
-        let rules = Arc::new(ValenceRules::new(kind, set, dnet.valence())?);
+    pub fn from_dnet(dnet: &DNet, kind: SchemeKind, variant: impl Into<Variant>) -> Option<Self> {
+        let rules = Arc::new(ValenceRules::new(kind, variant.into(), dnet.valence())?);
         let center = dnet.center(kind.spline()?);
         let net: Vec<Vector> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
         Some(Self::start(&net, center, None, rules))
@@ -188,6 +188,12 @@ impl Rings {
         self.rules.subdominant.lambda
     }
 
+    /// The factor by which the parameters of the rings shrink: 1/2 but for contractions other than
+    /// Catmull-Clark's.
+    pub fn sigma(&self) -> f64 {
+        self.rules.rules.sigma()
+    }
+
     /// The limit point c_0.
     pub fn center(&self) -> Point {
         self.center
@@ -209,13 +215,12 @@ impl Rings {
     }
 
     /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; in ring l
-    /// it is 2^-l as large. The patch's own parameters run the same way.
+    /// it is sigma^l as large. The patch's own parameters run the same way.
     ///
-    /// Patches lie in three squares, [1/2,1] x [1/2,1], [1/2,1] x [0,1/2] and [0,1/2] x [1/2,1],
-    /// one in each, 2 x 2 or 3 x 3, the index along b fastest.
+    /// With s = sigma patches lie in three squares, \[s,1\] x \[s,1\], \[s,1\] x \[0,s\] and
+    /// \[0,s\] x \[s,1\], one in each, 2 x 2 or 3 x 3, the index along b fastest.
     pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
-        let (corner, size) = self.rules.rules.patch_square(which);
-        corner.map(|x| [x, x + size])
+        self.rules.rules.patch_domain(which)
     }
 
     /// All patches of ring `ring` (from 0), sector by sector.
@@ -244,33 +249,34 @@ impl Rings {
         if a.max(b) == 0.0 {
             return self.at_center();
         }
-        let ring = ring_of(a.max(b));
-        let [a, b] = [a, b].map(|x| scaled_up(x, ring));
+        let ring = ring_of(a.max(b), self.sigma());
+        let [a, b] = [a, b].map(|x| scaled_up(x, ring, self.sigma()));
         self.eval_scaled(ring, s, self.rules.rules.patch_at([a, b]), [a, b])
     }
 
     /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
     /// polynomial is extrapolated if (a,b) is not in the patch.
     pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
-        self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring)))
+        self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring, self.sigma())))
     }
 
     /// Parameters of a sector as those of the hole in front of ring `ring`, the hole being the unit
     /// square.
     pub(crate) fn in_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
-        at.map(|x| scaled_up(x, ring))
+        at.map(|x| scaled_up(x, ring, self.sigma()))
     }
 
     /// The inverse of [`Rings::in_hole`].
     pub(crate) fn from_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
-        at.map(|x| (0..ring).fold(x, |x, _| 0.5 * x))
+        at.map(|x| (0..ring).fold(x, |x, _| self.sigma() * x))
     }
 
-    /// A patch at (A,B) = 2^ring (a,b).
+    /// A patch at (A,B) = (a,b) / sigma^ring.
     fn eval_scaled(&self, ring: usize, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
         let ([a0, b0], size) = self.rules.rules.patch_square(which);
         let number = self.patches_per_sector() * s + which;
-        let jet = self.with_ring(ring, |r| r.patches[number].jet((a - a0) / size, (b - b0) / size));
+        let [u, v] = [(a - a0) / size[0], (b - b0) / size[1]];
+        let jet = self.with_ring(ring, |r| r.patches[number].jet(u, v));
         self.in_world(ring, size, &jet)
     }
 
@@ -324,23 +330,23 @@ impl Rings {
 
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
     /// in (a,b).
-    pub(crate) fn in_world(&self, ring: usize, size: f64, jet: &Jet) -> SurfacePoint {
-        let lambda = self.lambda();
+    pub(crate) fn in_world(&self, ring: usize, [u, v]: [f64; 2], jet: &Jet) -> SurfacePoint {
+        let (lambda, step) = (self.lambda(), self.sigma());
         let sigma = power(lambda, ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
-        // A patch parameter runs 2^ring / size times as fast as a and b.
-        let first = power(2.0 * lambda, ring) / size;
-        let second = power(4.0 * lambda, ring) / (size * size);
+        // A patch parameter runs step^-ring / size times as fast as a and b.
+        let first = power(lambda / step, ring);
+        let second = power(lambda / (step * step), ring);
         let world = |factor: f64, r: Vector| self.frame.world(factor, zeta, r);
         let (normal, gauss, mean) = normal_and_curvature(jet, sigma, zeta);
         SurfacePoint {
             jet: Jet {
                 p: add(self.center, world(sigma, jet.p)),
-                du: world(first, jet.du),
-                dv: world(first, jet.dv),
-                duu: world(second, jet.duu),
-                duv: world(second, jet.duv),
-                dvv: world(second, jet.dvv),
+                du: world(first / u, jet.du),
+                dv: world(first / v, jet.dv),
+                duu: world(second / (u * u), jet.duu),
+                duv: world(second / (u * v), jet.duv),
+                dvv: world(second / (v * v), jet.dvv),
             },
             normal: self.frame.world(1.0, 1.0, normal),
             gauss,
@@ -460,23 +466,29 @@ fn normal_and_curvature(jet: &Jet, sigma: f64, zeta: f64) -> (Vector, f64, f64) 
     (unit(area), gauss, mean)
 }
 
-/// The ring l with 2^-(l+1) < x <= 2^-l, for 0 < x <= 1.
-fn ring_of(x: f64) -> usize {
-    let (mut ring, mut x) = (0, x);
-    while x <= 0.5 {
-        x *= 2.0;
+/// The ring l with sigma^(l+1) < x <= sigma^l, for 0 < x <= 1.
+pub(crate) fn ring_of(x: f64, sigma: f64) -> usize {
+    let factor = 1.0 / sigma;
+    let (mut ring, mut x) = (0, x * OUT_OF_THE_DENORMALS);
+    while x <= sigma * OUT_OF_THE_DENORMALS {
+        x *= factor;
         ring += 1;
     }
     ring
 }
 
-/// x 2^ring, exactly (2^ring itself may be out of range when x is denormal).
-fn scaled_up(x: f64, ring: usize) -> f64 {
-    (0..ring).fold(x, |x, _| 2.0 * x)
+/// x / sigma^ring, the same product as in [`ring_of`]; exact if sigma is 1/2 (2^ring itself may be
+/// out of range when x is denormal).
+pub(crate) fn scaled_up(x: f64, ring: usize, sigma: f64) -> f64 {
+    let factor = 1.0 / sigma;
+    (0..ring).fold(x * OUT_OF_THE_DENORMALS, |x, _| factor * x) / OUT_OF_THE_DENORMALS
 }
 
+/// 2^200: among denormal numbers multiplication by a factor below 3/2 may not change anything.
+const OUT_OF_THE_DENORMALS: f64 = (1_u128 << 100) as f64 * (1_u128 << 100) as f64;
+
 /// x^k by repeated squaring, in a fixed order of rounding.
-fn power(x: f64, k: usize) -> f64 {
+pub(crate) fn power(x: f64, k: usize) -> f64 {
     let (mut result, mut square, mut k) = (1.0, x, k);
     while k > 0 {
         if k & 1 == 1 {

@@ -5,13 +5,13 @@
 use std::path::Path;
 
 use evenlight::picture::{Picture, PictureError, RenderOptions, Style, View, compare, render};
-use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions, io};
+use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions, io};
 
 fn load(name: &str, scheme: SchemeKind) -> Surface {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes/obstacle").join(name);
     let bytes = std::fs::read(path).expect("the cage is in data/meshes");
     let (cage, _) = io::obj::read_cage(&bytes).expect("the cage is in order");
-    let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+    let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
     Surface::build(cage, options).expect("there are rules for valences up to 16")
 }
 
@@ -139,7 +139,7 @@ fn without_a_surface_there_is_a_note() {
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     // Its only face touches the boundary.
     let cage = Cage::new(Mesh::new(square.to_vec(), [[0, 1, 2, 3]])).unwrap();
-    let options = SurfaceOptions { scheme: SchemeKind::CatmullClark, rules: RuleSet::Generated };
+    let options = SurfaceOptions { scheme: SchemeKind::CatmullClark, ..SurfaceOptions::default() };
     let surface = Surface::build(cage, options).unwrap();
     for style in Style::ALL {
         let options = RenderOptions { style, size: [420, 160], ..RenderOptions::default() };

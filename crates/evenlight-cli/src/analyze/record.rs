@@ -20,6 +20,8 @@ struct SchemeRecord {
     scheme: &'static str,
     /// `null` for schemes without tables.
     rules: Option<&'static str>,
+    /// `cc`, `half` or a number.
+    contraction: String,
     /// One record per extraordinary vertex, then per centre of an n-gon.
     points: Vec<PointRecord>,
     /// The largest jumps across all patch borders of the surface.
@@ -96,6 +98,7 @@ impl SchemeRecord {
         Self {
             scheme: analysis.scheme(),
             rules: rules_name(analysis.surface.options()),
+            contraction: analysis.surface.options().contraction.to_string(),
             points: analysis.points().map(PointRecord::new).collect(),
             jumps: analysis.report.jumps.into(),
         }

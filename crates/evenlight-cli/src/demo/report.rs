@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{RuleSet, SchemeKind, SurfaceOptions};
+use evenlight::{SchemeKind, SurfaceOptions};
 
 use super::steps::Step;
 use super::subject::{CloseUp, RINGS, Subject};
@@ -95,7 +95,7 @@ fn spectra() -> Result<String, Failure> {
         (SchemeKind::EvolvingGuide, "Evolving-Guide"),
         (SchemeKind::CatmullClark, "Catmull-Clark"),
     ] {
-        let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+        let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
         let table = spectrum::table(&spectrum::spectra(options, &(3..=10), true)?);
         text += &format!("\n{name}:\n\n{}", table.markdown());
     }

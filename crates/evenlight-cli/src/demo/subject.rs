@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use evenlight::point::{dot, norm, scale, sub};
 use evenlight::surface::{ExtraordinaryPoint, Sector};
-use evenlight::{Cage, Point, RuleSet, SchemeKind, Surface, SurfaceOptions, Vector};
+use evenlight::{Cage, Point, SchemeKind, Surface, SurfaceOptions, Vector};
 
 use serde_json::json;
 
@@ -76,7 +76,7 @@ impl Subject {
     pub fn new(source: &Source) -> Result<Self, Failure> {
         let cage = input::read_cage(source)?;
         let analyse = |scheme| -> Result<Analysis, Failure> {
-            let options = SurfaceOptions { scheme, rules: RuleSet::Generated };
+            let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
             let surface = input::build(Arc::clone(&cage), options, source)?;
             Ok(Analysis::of(surface, RINGS))
         };

@@ -74,7 +74,14 @@ pub fn basis(valence: usize, totals: RangeInclusive<usize>) -> Matrix {
 /// A basis, as columns of BB coefficients, of the guides whose pieces have only terms
 /// u^i v^j with i + j = `total`.
 pub fn homogeneous(valence: usize, total: usize) -> Matrix {
-    let exponents = exponents(total);
+    homogeneous_of_degree(DEGREE, valence, total)
+}
+
+/// The same for guides of bi-`degree` 3, 4 or 5: those of bi-degree 5 without terms in which a
+/// variable has a higher power [KP18-Guided, sec. 6.1]; `total` must not exceed 2 `degree`. Their
+/// coefficients are given in bi-degree 5 all the same.
+pub fn homogeneous_of_degree(degree: usize, valence: usize, total: usize) -> Matrix {
+    let exponents = exponents(degree, total);
     let kernel = kernel(&conditions(valence, &exponents));
     let one = monomials(DEGREE);
     Matrix::from_fn(COEFS * valence, kernel.num_columns(), |row, column| {
@@ -86,46 +93,63 @@ pub fn homogeneous(valence: usize, total: usize) -> Matrix {
     })
 }
 
-/// The exponents (i, j) of bi-degree 5 with i + j = `total`.
-fn exponents(total: usize) -> Vec<(usize, usize)> {
-    let i = total.saturating_sub(DEGREE)..=total.min(DEGREE);
+/// The exponents (i, j) of bi-degree `degree` with i + j = `total`.
+pub(crate) fn exponents(degree: usize, total: usize) -> Vec<(usize, usize)> {
+    let i = total.saturating_sub(degree)..=total.min(degree);
     i.map(|i| (i, total - i)).collect()
 }
 
-/// The conditions on the power coefficients of degree `total`, three per line as far as they exist:
-/// a_i0 = b_i0; a_i1 + b_i1 = 2c (i+1) a_(i+1)0;
-/// b_i2 - a_i2 + 2c (i+1) a_(i+1)1 = 2c^2 (i+2)(i+1) a_(i+2)0.
+/// The conditions on the power coefficients of degree `total`, three per line.
 fn conditions(valence: usize, exponents: &[(usize, usize)]) -> Matrix {
-    let c = Real::cos_of_turn(valence);
     let total = exponents[0].0 + exponents[0].1;
     let mut matrix = Matrix::zeros(3 * valence, exponents.len() * valence);
-    for sector in 0..valence {
-        let behind = (sector + valence - 1) % valence;
-        let mut add = |row: usize, (i, j): (usize, usize), is_ahead: bool, weight: Real| {
-            let (sector, wanted) = if is_ahead { (sector, (i, j)) } else { (behind, (j, i)) };
-            if let Some(k) = exponents.iter().position(|&exponent| exponent == wanted) {
-                matrix[(row, exponents.len() * sector + k)] += weight;
+    for line in 0..valence {
+        for (k, condition) in conditions_on_line(valence, total).into_iter().enumerate() {
+            for Term { is_ahead, exponent, weight } in condition {
+                let sector = if is_ahead { line } else { (line + valence - 1) % valence };
+                if let Some(at) = exponents.iter().position(|&known| known == exponent) {
+                    matrix[(3 * line + k, exponents.len() * sector + at)] += weight;
+                }
             }
-        };
-        let (one, two) = (Real::ONE, Real::from(2));
-        let row = 3 * sector;
-        if total <= DEGREE {
-            add(row, (total, 0), true, one);
-            add(row, (total, 0), false, -one);
-        }
-        if (1..=DEGREE + 1).contains(&total) {
-            add(row + 1, (total - 1, 1), true, one);
-            add(row + 1, (total - 1, 1), false, one);
-            add(row + 1, (total, 0), true, -two * c * number(total));
-        }
-        if (2..=DEGREE + 2).contains(&total) {
-            add(row + 2, (total - 2, 2), false, one);
-            add(row + 2, (total - 2, 2), true, -one);
-            add(row + 2, (total - 1, 1), true, two * c * number(total - 1));
-            add(row + 2, (total, 0), true, -two * c * c * number(total * (total - 1)));
         }
     }
     matrix
+}
+
+/// A power coefficient of the piece ahead of a line, or of the one behind it, in a condition.
+pub(crate) struct Term {
+    pub(crate) is_ahead: bool,
+    /// The exponents in the piece's own coordinates.
+    pub(crate) exponent: (usize, usize),
+    pub(crate) weight: Real,
+}
+
+/// The conditions across a line on power coefficients of degree `total`:
+/// a_i0 = b_i0; a_i1 + b_i1 = 2c (i+1) a_(i+1)0;
+/// b_i2 - a_i2 + 2c (i+1) a_(i+1)1 = 2c^2 (i+2)(i+1) a_(i+2)0.
+/// Terms of guides of lower degree are among them; those that do not exist are zero.
+pub(crate) fn conditions_on_line(valence: usize, total: usize) -> [Vec<Term>; 3] {
+    let c = Real::cos_of_turn(valence);
+    let (one, two) = (Real::ONE, Real::from(2));
+    let ahead = |exponent, weight| Term { is_ahead: true, exponent, weight };
+    let behind = |(i, j): (usize, usize)| Term { is_ahead: false, exponent: (j, i), weight: one };
+    let mut conditions = [Vec::new(), Vec::new(), Vec::new()];
+    if total <= DEGREE {
+        conditions[0] = vec![behind((total, 0)), ahead((total, 0), -one)];
+    }
+    if (1..=DEGREE + 1).contains(&total) {
+        let along = ahead((total, 0), -two * c * number(total));
+        conditions[1] = vec![ahead((total - 1, 1), one), behind((total - 1, 1)), along];
+    }
+    if (2..=DEGREE + 2).contains(&total) {
+        conditions[2] = vec![
+            behind((total - 2, 2)),
+            ahead((total - 2, 2), -one),
+            ahead((total - 1, 1), two * c * number(total - 1)),
+            ahead((total, 0), -two * c * c * number(total * (total - 1))),
+        ];
+    }
+    conditions
 }
 
 /// The columns of `basis` made orthonormal, from the left, by two rounds of Gram-Schmidt; they must

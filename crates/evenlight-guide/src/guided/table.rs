@@ -55,21 +55,13 @@ impl GuidedTable {
     /// 64 bits cannot hold).
     pub fn derive(valence: usize) -> Self {
         let chi = CharacteristicRing::catmull_clark(valence);
-        let generating = symmetrised(&generating_matrix(&chi), valence);
-        let on_line = |row: usize| row.is_multiple_of(DEGREE + 1) || row <= DEGREE;
-        let coefs = (0..COEFS).map(|row| {
-            if on_line(row) {
-                line_row(&generating, valence, row)
-            } else {
-                generating.row(row).into()
-            }
-        });
+        let coefs = symmetric_rows(&generating_matrix(&chi), valence);
         let numerators = |row: &[Real]| -> Vec<i64> {
             row.iter().map(|weight| weight.numerator_over(DENOMINATOR)).collect()
         };
         let map = cap_map(&chi);
         let cap_map = (0..cap::DEGREE + 1).flat_map(|i| numerators(map.row(i))).collect();
-        Self { valence, coefs: coefs.map(|row: Vec<Real>| numerators(&row)).collect(), cap_map }
+        Self { valence, coefs: coefs.iter().map(|row| numerators(row)).collect(), cap_map }
     }
 
     /// Checks that the mirror symmetries hold exactly, and the partition of unity up to the
@@ -167,6 +159,17 @@ fn number(i: usize, j: usize) -> usize {
 /// The image of a node in line -1, the first line of sector 0.
 fn mirrored_in_line(net: CNet, node: usize) -> usize {
     net.mirrored(net.turned(node, 1))
+}
+
+/// The rows of a generating matrix averaged with their mirror images.
+pub(crate) fn symmetric_rows(generating: &Matrix, valence: usize) -> Vec<Vec<Real>> {
+    let generating = symmetrised(generating, valence);
+    let on_line = |row: usize| row.is_multiple_of(DEGREE + 1) || row <= DEGREE;
+    let row = |row: usize| match on_line(row) {
+        true => line_row(&generating, valence, row),
+        false => generating.row(row).to_vec(),
+    };
+    (0..COEFS).map(row).collect()
 }
 
 /// The row of p_i0, or of p_0i, averaged with its mirror image in the line, which it equals up to

@@ -113,7 +113,7 @@ fn border_points(patch: &PatchPlace, samples: usize) -> Vec<(f64, f64)> {
 /// The jumps between patch `k` of a quad and everything else that has the point `at` of its
 /// border.
 fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -> Jumps {
-    let size = patches[k].domain[0][1] - patches[k].domain[0][0];
+    let size = patches[k].domain.map(|[start, end]| end - start);
     let here = surface.eval_on(&patches[k], at[0], at[1]);
     let inside = patches.iter().enumerate().filter(|&(j, p)| j != k && contains(p, at));
     let mut jumps = Jumps::default();
@@ -131,6 +131,7 @@ fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -
             // Both sides as seen from the border, in the parameters of this quad.
             let jet = border_jet(other_side, &there.jet).scaled_parameters(-speed);
             let here = SurfacePoint { jet: border_jet(side, &here.jet), ..here };
+            let size = if side.is_multiple_of(2) { size } else { [size[1], size[0]] };
             jumps = jumps.max(compare(&here, &SurfacePoint { jet, ..there }, size));
         }
     } else if alone && patches[k].point.is_none_or(|point| surface.cap(point).is_none()) {
@@ -163,19 +164,32 @@ fn contains(place: &PatchPlace, at: [f64; 2]) -> bool {
     (0..2).all(|d| place.domain[d][0] <= at[d] && at[d] <= place.domain[d][1])
 }
 
-/// The jumps between two answers for one point, in the same parameters.
-fn compare(a: &SurfacePoint, b: &SurfacePoint, size: f64) -> Jumps {
+/// The jumps between two answers for one point, in the same parameters; `size` is what a patch
+/// covers of either.
+fn compare(a: &SurfacePoint, b: &SurfacePoint, size: [f64; 2]) -> Jumps {
     let angle = norm(cross(a.normal, b.normal)).atan2(dot(a.normal, b.normal));
     let (ka, kb) = (a.principal_curvatures(), b.principal_curvatures());
-    let own = a.jet.scaled_parameters(size);
+    let own = over_patch(&a.jet, size);
     let extent = own.rows()[1..].iter().map(|&r| norm(r)).fold(0.0, f64::max);
-    let other = b.jet.scaled_parameters(size);
+    let other = over_patch(&b.jet, size);
     let apart = own.rows().into_iter().zip(other.rows()).map(|(x, y)| norm(sub(x, y)));
     Jumps {
         position: norm(sub(a.jet.p, b.jet.p)),
         tangent_plane: angle,
         curvature: (ka[0] - kb[0]).abs().max((ka[1] - kb[1]).abs()),
         parametric: apart.fold(0.0, f64::max) / extent,
+    }
+}
+
+/// A jet in parameters that run from 0 to 1 over a patch of this size.
+fn over_patch(jet: &Jet, [u, v]: [f64; 2]) -> Jet {
+    Jet {
+        p: jet.p,
+        du: scale(u, jet.du),
+        dv: scale(v, jet.dv),
+        duu: scale(u * u, jet.duu),
+        duv: scale(u * v, jet.duv),
+        dvv: scale(v * v, jet.dvv),
     }
 }
 

@@ -92,14 +92,14 @@ pub struct PointShape {
 ///
 /// ```
 /// use evenlight::analyse::shape::shape;
-/// use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions};
+/// use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions};
 ///
 /// // The cube: eight points of valence 3, all alike.
 /// let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(|x| 2.0 * f64::from(x) - 1.0);
 /// let faces: [[u32; 4]; 6] =
 ///     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 /// let cube = Cage::new(Mesh::new((0..8).map(corner).collect(), faces)).unwrap();
-/// let options = SurfaceOptions { scheme: SchemeKind::Qas4, rules: RuleSet::Generated };
+/// let options = SurfaceOptions { scheme: SchemeKind::Qas4, ..SurfaceOptions::default() };
 /// let points = shape(&Surface::build(cube, options).unwrap(), 6);
 /// assert_eq!(points.len(), 8);
 /// assert!(points[0].curvature.mean.max < 0.0, "convex everywhere");
@@ -157,7 +157,8 @@ impl Around<'_> {
         let rays: Vec<f64> = self.rays(rings).map(|h| oscillation(&h)).collect();
         let along_rays = rays.iter().sum::<f64>() / rays.len() as f64;
         let on_border = self.variation_around(1.0);
-        let radii = (0..2 * rings).map(|k| radius(k / 2, 0.25 * (k % 2 + 1) as f64));
+        let sigma = self.rings.sigma();
+        let radii = (0..2 * rings).map(|k| radius(sigma, k / 2, 0.5 * (k % 2 + 1) as f64));
         let largest = radii.map(|r| self.variation_around(r)).fold(on_border, f64::max);
         (scale, along_rays / scale, (largest - on_border) / scale)
     }
@@ -181,7 +182,7 @@ impl Around<'_> {
             let [a, b] = on_corner(k as f64 / RAYS as f64);
             let steps = (0..=rings * RAY_STEPS).map(|step| {
                 let part = (step % RAY_STEPS) as f64 / RAY_STEPS as f64;
-                radius(step / RAY_STEPS, 0.5 * part)
+                radius(self.rings.sigma(), step / RAY_STEPS, part)
             });
             known(steps.map(|r| self.rings.eval(s, r * a, r * b).mean))
         })
@@ -208,9 +209,9 @@ fn on_corner(t: f64) -> [f64; 2] {
     if t < 0.5 { [1.0, 2.0 * t] } else { [2.0 - 2.0 * t, 1.0] }
 }
 
-/// (1 - part) 2^-ring.
-fn radius(ring: usize, part: f64) -> f64 {
-    (0..ring).fold(1.0 - part, |r, _| 0.5 * r)
+/// The radius at `part` in [0,1] of the way through a ring: (1 - part (1 - sigma)) sigma^ring.
+fn radius(sigma: f64, ring: usize, part: f64) -> f64 {
+    (0..ring).fold(1.0 - part * (1.0 - sigma), |r, _| sigma * r)
 }
 
 /// The values that are numbers.
@@ -389,7 +390,8 @@ mod tests {
             [0.0, 0.25, 0.5, 0.75, 1.0].map(on_corner),
             [[1.0, 0.0], [1.0, 0.5], [1.0, 1.0], [0.5, 1.0], [0.0, 1.0]]
         );
-        let radii = [(0, 0.25), (0, 0.5), (1, 0.25), (1, 0.5)].map(|(k, x)| radius(k, x));
+        let radii = [(0, 0.5), (0, 1.0), (1, 0.5), (1, 1.0)].map(|(k, x)| radius(0.5, k, x));
         assert_eq!(radii, [0.75, 0.5, 0.375, 0.25]);
+        assert_eq!([(1, 0.0), (1, 1.0)].map(|(k, x)| radius(0.25, k, x)), [0.25, 0.0625]);
     }
 }

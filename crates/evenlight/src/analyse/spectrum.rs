@@ -19,7 +19,7 @@
 //!
 //! A guided surface is subdivided by shrinking its guide: the homogeneous guides of degree s, sums
 //! of u^i v^j with i + j = s and i, j <= 5 that join G2, are the eigenspace of lambda^s. Their
-//! dimensions for s = 0, 1, .. 10 are [KP18-Guided, table 5]
+//! dimensions for s = 0, 1, .. 10, found by [`multiplicity`], are [KP18-Guided, table 5]
 //!
 //! ```text
 //!   1, 2, 3, n*, 2n, 3n, 3n, 3n, 3n, 2n, n,     n* = n + 1 for n = 3 and 6, else n.
@@ -32,8 +32,9 @@
 use nalgebra::{Complex, DMatrix};
 
 use super::injectivity::jacobian_is_positive;
+use crate::basis::{MAX_TOTAL_DEGREE, multiplicity};
 use crate::patch::Patch;
-use crate::scheme::{RuleSet, Rules, SchemeKind, Subdominant};
+use crate::scheme::{Rules, SchemeKind, Subdominant, Variant};
 
 /// Grid points along each side of a patch, ends included, for the Jacobian.
 const GRID: usize = 17;
@@ -67,8 +68,12 @@ pub struct Spectrum {
 ///
 /// Eigenvalues are exact to about 1e-13 where they are simple; small multiple ones (1/64 and
 /// below) to about 1e-5, as their eigenvectors coincide.
-pub fn spectrum(scheme: SchemeKind, set: RuleSet, valence: usize) -> Option<Spectrum> {
-    let rules = scheme.rules(set, valence)?;
+pub fn spectrum(
+    scheme: SchemeKind,
+    variant: impl Into<Variant>,
+    valence: usize,
+) -> Option<Spectrum> {
+    let rules = scheme.rules(variant, valence)?;
     let subdominant = Subdominant::new(&rules);
     let lambda = subdominant.lambda;
     let mut moduli = if rules.guide.is_some() {
@@ -98,14 +103,12 @@ pub fn spectrum(scheme: SchemeKind, set: RuleSet, valence: usize) -> Option<Spec
 
 /// The eigenvalues of a guide of degree 3 and more, each as often as there are homogeneous guides.
 fn guided_moduli(n: usize, lambda: f64) -> Vec<f64> {
-    let cubics = if n == 3 || n == 6 { n + 1 } else { n };
-    let dimensions = [cubics, 2 * n, 3 * n, 3 * n, 3 * n, 3 * n, 2 * n, n];
     let mut power = lambda * lambda;
-    let eigenvalues = dimensions.map(|count| {
+    let eigenvalues = (3..=MAX_TOTAL_DEGREE).map(|degree| {
         power *= lambda;
-        vec![power; count]
+        vec![power; multiplicity(n, degree)]
     });
-    eigenvalues.concat()
+    eigenvalues.collect::<Vec<_>>().concat()
 }
 
 /// The moduli of the eigenvalues of Fourier block `m` of the control net.

@@ -80,6 +80,28 @@ pub enum CapError {
         /// The degree asked for.
         cap: usize,
     },
+    /// The lines between the patches of a ring are not those of a cap.
+    #[error(
+        "the patches of scheme {} meet the hole at other parameters than those of a cap when rings \
+         do not contract like Catmull-Clark's; take guided5 or guided6",
+        scheme.name()
+    )]
+    Contraction {
+        /// The scheme.
+        scheme: SchemeKind,
+    },
+    /// The rings are cut elsewhere than a cap.
+    #[error(
+        "scheme {} cuts its rings in {split} unequal parts at this contraction, which a cap cannot \
+         continue; take contraction cc, or guided5 or guided6",
+        scheme.name()
+    )]
+    Cuts {
+        /// The scheme.
+        scheme: SchemeKind,
+        /// The patches along each side of a square of its rings.
+        split: usize,
+    },
     /// No caps at this valence.
     #[error("there are caps for valences 3 to {MAX_VALENCE} (not 4), not for {valence}")]
     Valence {
@@ -110,7 +132,7 @@ impl CapKind {
     pub fn of_scheme(scheme: SchemeKind) -> Self {
         match scheme {
             SchemeKind::Guided6 => Self::Bi6,
-            SchemeKind::Guided4 => Self::Bi4,
+            SchemeKind::Guided3 | SchemeKind::Guided4 => Self::Bi4,
             _ => Self::Bi5,
         }
     }
@@ -224,7 +246,7 @@ impl Cap {
         let [[a0, _], [b0, _]] = self.patch_domain(which);
         let m = self.space.pieces as f64;
         let patch = &self.patches[s * self.patches_per_sector() + which];
-        rings.in_world(self.rings, 1.0 / m, &patch.jet((a - a0) * m, (b - b0) * m))
+        rings.in_world(self.rings, [1.0 / m; 2], &patch.jet((a - a0) * m, (b - b0) * m))
     }
 }
 
@@ -248,6 +270,12 @@ impl ValenceCap {
         if space.degree < rules.degree {
             let (ring, cap) = (rules.degree, space.degree);
             return Err(CapError::Degree { scheme, ring, cap });
+        }
+        if rules.cuts().is_some() && rules.split > 1 {
+            return Err(CapError::Contraction { scheme });
+        }
+        if !cuts_fit(rules, space) {
+            return Err(CapError::Cuts { scheme, split: rules.split });
         }
         let net = subdominant.characteristic_net();
         let refined = rules.refine(&net);
@@ -310,13 +338,18 @@ impl ValenceCap {
     }
 }
 
+/// Whether a cap has joints wherever the inner border of a ring has.
+fn cuts_fit(rules: &Rules, space: Space) -> bool {
+    let fits = |[_, [b0, b1]]: [[f64; 2]; 2]| {
+        let at = b0 / rules.sigma() * space.pieces as f64;
+        b1 > rules.sigma() + 1e-9 || (at - at.round()).abs() < 1e-9
+    };
+    domains(rules).into_iter().all(fits)
+}
+
 /// The parts of a sector that the patches of ring 0 cover.
 fn domains(rules: &Rules) -> Vec<[[f64; 2]; 2]> {
-    let domain = |which: usize| {
-        let (corner, size) = rules.patch_square(which);
-        corner.map(|x| [x, x + size])
-    };
-    (0..rules.patches_per_sector()).map(domain).collect()
+    (0..rules.patches_per_sector()).map(|which| rules.patch_domain(which)).collect()
 }
 
 /// chi(1,0) turned by half a sector: chi over a coordinate whose real axis is the bisectrix of sector

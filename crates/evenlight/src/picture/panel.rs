@@ -209,12 +209,12 @@ mod tests {
     use super::super::View;
     use super::*;
     use crate::mesh::{Cage, Mesh};
-    use crate::scheme::{RuleSet, SchemeKind};
+    use crate::scheme::SchemeKind;
     use crate::surface::SurfaceOptions;
 
     fn surface(mesh: Mesh) -> Surface {
         let options =
-            SurfaceOptions { scheme: SchemeKind::CatmullClark, rules: RuleSet::Generated };
+            SurfaceOptions { scheme: SchemeKind::CatmullClark, ..SurfaceOptions::default() };
         Surface::build(Cage::new(mesh).unwrap(), options).unwrap()
     }
 

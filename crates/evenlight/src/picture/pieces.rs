@@ -1,7 +1,7 @@
 //! Which polynomial patch a parameter belongs to.
 //!
 //! A sector of an extraordinary point at (a,b) = (0,0) is an infinite sequence of rings, each
-//! half as wide as the one before and cut in the same way:
+//! half (in general: sigma times) as wide as the one before and cut in the same way:
 //!
 //! ```text
 //!  b=1 +-------+-------+
@@ -40,11 +40,11 @@ pub(super) struct Pieces {
     quads: Vec<QuadPieces>,
 }
 
-/// The patches of one parametric quad.
+/// The patches of one parametric quad; sectors with the sigma of their rings.
 #[derive(Clone, Debug, Default)]
 struct QuadPieces {
     regular: Vec<Domain>,
-    sectors: Vec<Sector>,
+    sectors: Vec<(Sector, f64)>,
     first_ring: Vec<Domain>,
     caps: Vec<Domain>,
 }
@@ -63,8 +63,11 @@ impl Pieces {
                 Role::Cap => quad.caps.push(patch.domain),
             }
         }
-        for &sector in surface.extraordinary_points().iter().flat_map(|point| &point.sectors) {
-            quads[sector.quad.0 as usize].sectors.push(sector);
+        for (k, point) in surface.extraordinary_points().iter().enumerate() {
+            let sigma = surface.rings(k).sigma();
+            for &sector in &point.sectors {
+                quads[sector.quad.0 as usize].sectors.push((sector, sigma));
+            }
         }
         Self { quads }
     }
@@ -85,9 +88,9 @@ impl Pieces {
 impl QuadPieces {
     /// The patch of a ring that `uv` is in.
     fn ring_piece(&self, uv: [f64; 2]) -> Option<Piece> {
-        self.sectors.iter().find_map(|sector| {
-            let ring = ring_number(sector, uv)?;
-            let factor = 2.0_f64.powi(ring as i32 - 1);
+        self.sectors.iter().find_map(|(sector, sigma)| {
+            let ring = ring_number(sector, *sigma, uv)?;
+            let factor = sigma.powi(1 - ring as i32);
             let scaled =
                 |t: f64, k: usize, factor: f64| sector.center[k] + factor * (t - sector.center[k]);
             let in_first = [scaled(uv[0], 0, factor), scaled(uv[1], 1, factor)];
@@ -99,7 +102,7 @@ impl QuadPieces {
 }
 
 /// The ring of `sector` that `uv` is in; `None` outside the sector and at its centre.
-fn ring_number(sector: &Sector, uv: [f64; 2]) -> Option<usize> {
+fn ring_number(sector: &Sector, sigma: f64, uv: [f64; 2]) -> Option<usize> {
     let step = [uv[0] - sector.center[0], uv[1] - sector.center[1]];
     let [a, b] = sector.along.map(|line| {
         (step[0] * line[0] + step[1] * line[1]) / (line[0] * line[0] + line[1] * line[1])
@@ -110,8 +113,8 @@ fn ring_number(sector: &Sector, uv: [f64; 2]) -> Option<usize> {
         return None;
     }
     let mut ring = 1;
-    while largest <= 0.5 && ring < LAST_RING {
-        largest *= 2.0;
+    while largest <= sigma && ring < LAST_RING {
+        largest /= sigma;
         ring += 1;
     }
     Some(ring)
@@ -140,7 +143,7 @@ mod tests {
         let (near, far) = ([0.75, 1.0], [0.5, 0.75]);
         let quad = QuadPieces {
             regular: vec![[left, low], [left, high], [right, high]],
-            sectors: vec![sector],
+            sectors: vec![(sector, 0.5)],
             first_ring: vec![[near, [0.25, 0.5]], [far, [0.25, 0.5]], [far, [0.0, 0.25]]],
             caps: Vec::new(),
         };

@@ -4,6 +4,7 @@
 //! ring of Bernstein-Bezier patches. Nothing here knows a mesh.
 
 mod catmull_clark;
+mod contraction;
 mod evolving_guide;
 mod guided;
 mod quadratic_attraction;
@@ -12,6 +13,7 @@ mod spline;
 mod subdominant;
 mod tables;
 
+pub use contraction::{Contraction, ContractionError, Variant};
 pub(crate) use guided::{guide_monomials, sampled_guide};
 pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;
@@ -52,7 +54,8 @@ pub enum SchemeKind {
 /// Which tables of weights are used, by schemes that have tables.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum RuleSet {
-    /// Full precision, valences 3 and 5 to 16.
+    /// Full precision, valences 3 and 5 to 16; of guided subdivision, with the feature `derive`, to
+    /// 32.
     #[default]
     Generated,
     /// As the papers print them, truncated to 5 digits: valences 3 and 5 to 10. None are printed of
@@ -92,23 +95,34 @@ impl SchemeKind {
     }
 
     /// Whether there are rules for valence `n`.
-    pub fn has_rules(self, rules: RuleSet, n: usize) -> bool {
-        match (self, rules) {
-            (Self::CatmullClark, _) => (2..=MAX_CATMULL_CLARK_VALENCE).contains(&n),
-            (_, RuleSet::Generated) => n == 3 || (5..=16).contains(&n),
-            (_, RuleSet::Published) => {
-                self.guided_degree().is_none() && (n == 3 || (5..=10).contains(&n))
-            }
+    pub fn has_rules(self, variant: impl Into<Variant>, n: usize) -> bool {
+        let is_tabulated = |last: usize| n == 3 || (5..=last).contains(&n);
+        match self.last_valence(variant.into()) {
+            None => false,
+            Some(last) if self == Self::CatmullClark => (2..=last).contains(&n),
+            Some(last) => is_tabulated(last),
         }
     }
 
     /// The valences with rules, in words.
-    pub fn valences(self, rules: RuleSet) -> &'static str {
+    pub fn valences(self, variant: impl Into<Variant>) -> &'static str {
+        match self.last_valence(variant.into()) {
+            None => "none",
+            Some(_) if self == Self::CatmullClark => "2 to 1024",
+            Some(PUBLISHED_VALENCE) => "3 and 5 to 10",
+            Some(TABULATED_VALENCE) => "3 and 5 to 16",
+            Some(_) => "3 and 5 to 32",
+        }
+    }
+
+    /// The largest valence with rules; `None` if there are none.
+    fn last_valence(self, Variant { rules, contraction }: Variant) -> Option<usize> {
+        self.check_contraction(contraction).ok()?;
         match (self, rules) {
-            (Self::CatmullClark, _) => "2 to 1024",
-            (_, RuleSet::Generated) => "3 and 5 to 16",
-            (_, RuleSet::Published) if self.guided_degree().is_some() => "none",
-            (_, RuleSet::Published) => "3 and 5 to 10",
+            (Self::CatmullClark, _) => Some(MAX_CATMULL_CLARK_VALENCE),
+            (_, RuleSet::Published) => self.guided_degree().is_none().then_some(PUBLISHED_VALENCE),
+            (_, RuleSet::Generated) if self.guided_degree().is_some() => Some(guided::LAST_VALENCE),
+            (_, RuleSet::Generated) => Some(TABULATED_VALENCE),
         }
     }
 
@@ -125,7 +139,7 @@ impl SchemeKind {
     }
 
     /// The degree of the rings of guided subdivision.
-    fn guided_degree(self) -> Option<usize> {
+    pub(crate) fn guided_degree(self) -> Option<usize> {
         match self {
             Self::Guided3 => Some(3),
             Self::Guided4 => Some(4),
@@ -147,11 +161,15 @@ impl SchemeKind {
     }
 
     /// The rules at valence `n`, if there are any.
-    pub(crate) fn rules(self, set: RuleSet, n: usize) -> Option<Rules> {
-        if !self.has_rules(set, n) {
+    pub(crate) fn rules(self, variant: impl Into<Variant>, n: usize) -> Option<Rules> {
+        let variant = variant.into();
+        if !self.has_rules(variant, n) {
             return None;
         }
-        let published = set == RuleSet::Published;
+        if let Some(degree) = self.guided_degree() {
+            return guided::rules(n, degree, variant.contraction);
+        }
+        let published = variant.rules == RuleSet::Published;
         match self {
             Self::CatmullClark => Some(catmull_clark::rules(n)),
             Self::EvolvingGuide => evolving_guide::rules(n, published),
@@ -163,10 +181,7 @@ impl SchemeKind {
             }
             Self::Qas3 => quadratic_attraction::rules(n, Spline::BiCubic, published),
             Self::Qas4 => quadratic_attraction::rules(n, Spline::BiQuartic, published),
-            Self::Guided3 => guided::rules(n, 3),
-            Self::Guided4 => guided::rules(n, 4),
-            Self::Guided5 => guided::rules(n, 5),
-            Self::Guided6 => guided::rules(n, 6),
+            Self::Guided3 | Self::Guided4 | Self::Guided5 | Self::Guided6 => None,
         }
     }
 
@@ -186,6 +201,10 @@ impl SchemeKind {
         }
     }
 }
+
+/// The largest valence whose rules are tabulated, and whose rules the papers print.
+const TABULATED_VALENCE: usize = 16;
+const PUBLISHED_VALENCE: usize = 10;
 
 /// Catmull-Clark has rules for every valence; the limit keeps a face with a million corners from
 /// using up the memory.

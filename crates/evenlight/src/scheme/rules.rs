@@ -36,6 +36,8 @@ pub(crate) type Row = Vec<(usize, f64)>;
 ///  0 +-----+-----+--> a, line s-1
 ///    0    .5     1
 /// ```
+///
+/// With [`Cuts`] the lines are elsewhere, sigma in the place of .5.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
     /// The valence n.
@@ -65,6 +67,17 @@ pub(crate) struct GuidePart {
     pub(crate) from_cnet: Vec<Vec<f64>>,
     /// The factor by which the guide is scaled down in each step.
     pub(crate) lambda: f64,
+    /// Where rings are cut, if not in halves.
+    pub(crate) cuts: Option<Cuts>,
+}
+
+/// Where the lines between the patches of a ring are, in a and in b alike.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Cuts {
+    /// The ring's hole is \[0,sigma\]^2.
+    pub(crate) sigma: f64,
+    /// All lines from 0 to 1, sigma in the middle.
+    pub(crate) lines: Vec<f64>,
 }
 
 /// The powers of a piece of a guide.
@@ -82,6 +95,15 @@ pub(crate) struct QuadraticPart {
 
 /// The corners of the three squares that are nearest to the centre.
 const SQUARES: [[f64; 2]; 3] = [[0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
+
+/// What a patch covers of a or b.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    start: f64,
+    /// start + size up to rounding; neighbours have exactly one line.
+    end: f64,
+    size: f64,
+}
 
 /// How a patch is made of the net and its refinement.
 #[derive(Clone, Debug, Default)]
@@ -166,25 +188,67 @@ impl Rules {
         self.patches.len()
     }
 
-    /// The corner (a,b) of patch `which` nearest to the centre, and the patch's size.
-    pub(crate) fn patch_square(&self, which: usize) -> ([f64; 2], f64) {
-        let size = 0.5 / self.split as f64;
-        let (square, part) = (which / (self.split * self.split), which % (self.split * self.split));
-        let [a, b] = SQUARES[square];
-        let [i, j] = [part / self.split, part % self.split];
-        ([a + i as f64 * size, b + j as f64 * size], size)
+    /// Where rings are cut, if not in halves.
+    pub(crate) fn cuts(&self) -> Option<&Cuts> {
+        self.guide.as_ref()?.cuts.as_ref()
     }
 
-    /// The patch of the outermost ring that has (a,b), 1/2 < max(a,b) <= 1.
+    /// The width of a ring's hole, the ring being 1 wide.
+    pub(crate) fn sigma(&self) -> f64 {
+        self.cuts().map_or(0.5, |cuts| cuts.sigma)
+    }
+
+    /// The corner (a,b) of patch `which` nearest to the centre, and the patch's size.
+    pub(crate) fn patch_square(&self, which: usize) -> ([f64; 2], [f64; 2]) {
+        let sides = self.patch_sides(which);
+        (sides.map(|side| side.start), sides.map(|side| side.size))
+    }
+
+    /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of the outermost ring covers.
+    pub(crate) fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
+        self.patch_sides(which).map(|side| [side.start, side.end])
+    }
+
+    fn patch_sides(&self, which: usize) -> [Side; 2] {
+        let (square, part) = (which / (self.split * self.split), which % (self.split * self.split));
+        let part = [part / self.split, part % self.split];
+        [0, 1].map(|k| match self.cuts() {
+            None => {
+                let size = 0.5 / self.split as f64;
+                let start = SQUARES[square][k] + part[k] as f64 * size;
+                Side { start, end: start + size, size }
+            }
+            Some(Cuts { lines, .. }) => {
+                let first = self.first_line(square, k) + part[k];
+                let [start, end] = [lines[first], lines[first + 1]];
+                Side { start, end, size: end - start }
+            }
+        })
+    }
+
+    /// The number of the line at which a square begins.
+    fn first_line(&self, square: usize, k: usize) -> usize {
+        if SQUARES[square][k] == 0.0 { 0 } else { self.split }
+    }
+
+    /// The patch of the outermost ring that has (a,b), sigma < max(a,b) <= 1 up to rounding.
     pub(crate) fn patch_at(&self, [a, b]: [f64; 2]) -> usize {
-        let square = match (a > 0.5, b > 0.5) {
+        let sigma = self.sigma();
+        let square = match (a > sigma, b > sigma) {
             (true, true) => 0,
             (true, false) => 1,
             _ => 2,
         };
-        let part = |x: f64, k: usize| {
-            let inside = (x - SQUARES[square][k]) * 2.0 * self.split as f64;
-            (inside.ceil() as usize).saturating_sub(1)
+        let part = |x: f64, k: usize| match self.cuts() {
+            None => {
+                let inside = (x - SQUARES[square][k]) * 2.0 * self.split as f64;
+                (inside.ceil() as usize).saturating_sub(1)
+            }
+            Some(Cuts { lines, .. }) => {
+                let first = self.first_line(square, k);
+                let inner = &lines[first + 1..first + self.split];
+                inner.iter().filter(|&&line| x > line).count()
+            }
         };
         square * self.split * self.split + part(a, 0) * self.split + part(b, 1)
     }

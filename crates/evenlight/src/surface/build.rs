@@ -11,27 +11,30 @@ use crate::mesh::{Cage, VertexId};
 use crate::net::CNet;
 use crate::point::Point;
 use crate::rings::{Rings, ValenceRules};
-use crate::scheme::{RuleSet, SchemeKind};
+use crate::scheme::{ContractionError, RuleSet, SchemeKind, Variant};
 
 /// Why no surface could be built.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
+    /// The scheme has no such contraction.
+    #[error(transparent)]
+    Contraction(#[from] ContractionError),
     /// The scheme has no rules for the valence of these points.
     #[error(
         "scheme {} has {}rules for valences {}, but {}; {}",
         scheme.name(),
-        if *rules == RuleSet::Published { "published " } else { "" },
-        scheme.valences(*rules),
+        if variant.rules == RuleSet::Published { "published " } else { "" },
+        scheme.valences(*variant),
         list_places(points),
-        advice(*scheme, *rules, points)
+        advice(*scheme, variant.rules, points)
     )]
     NoRules {
         /// The points and their valences.
         points: Vec<(Place, usize)>,
         /// The scheme.
         scheme: SchemeKind,
-        /// Its tables.
-        rules: RuleSet,
+        /// Its tables and contraction.
+        variant: Variant,
     },
 }
 
@@ -74,16 +77,17 @@ pub(super) fn rules_by_valence(
     plan: &Plan,
     options: SurfaceOptions,
 ) -> Result<BTreeMap<usize, Arc<ValenceRules>>, SurfaceError> {
-    let SurfaceOptions { scheme, rules: set } = options;
-    let without = plan.points.iter().filter(|p| !scheme.has_rules(set, p.valence));
+    let (scheme, variant) = (options.scheme, options.variant());
+    scheme.check_contraction(options.contraction)?;
+    let without = plan.points.iter().filter(|p| !scheme.has_rules(variant, p.valence));
     let points: Vec<_> = without.map(|p| (p.place, p.valence)).collect();
     if !points.is_empty() {
-        return Err(SurfaceError::NoRules { points, scheme, rules: set });
+        return Err(SurfaceError::NoRules { points, scheme, variant });
     }
     let mut rules = BTreeMap::new();
     for point in &plan.points {
         rules.entry(point.valence).or_insert_with(|| {
-            let rules = ValenceRules::new(scheme, set, point.valence);
+            let rules = ValenceRules::new(scheme, variant, point.valence);
             Arc::new(rules.expect("has_rules was asked before"))
         });
     }

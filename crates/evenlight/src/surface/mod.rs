@@ -31,7 +31,7 @@ use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add_scaled};
 use crate::rings::Rings;
-use crate::scheme::{RuleSet, SchemeKind};
+use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
 use build::{describe, gather, refined_positions, rules_by_valence};
 use caps::Caps;
 use place::{
@@ -43,12 +43,21 @@ use place::{
 pub struct QuadId(pub u32);
 
 /// How a surface is built; by default with `qas4` at full precision.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions {
     /// The scheme at extraordinary points.
     pub scheme: SchemeKind,
     /// The tables of that scheme.
     pub rules: RuleSet,
+    /// How fast its rings contract.
+    pub contraction: Contraction,
+}
+
+impl SurfaceOptions {
+    /// Which rules of the scheme are taken.
+    pub fn variant(&self) -> Variant {
+        Variant { rules: self.rules, contraction: self.contraction }
+    }
 }
 
 /// A subdivision surface over a cage.
@@ -109,7 +118,8 @@ impl Surface {
     /// # Errors
     ///
     /// [`SurfaceError::NoRules`] if the scheme has no rules for the valence of some point
-    /// ([`SchemeKind::has_rules`]).
+    /// ([`SchemeKind::has_rules`]), [`SurfaceError::Contraction`] if it has no such contraction
+    /// ([`SchemeKind::check_contraction`]).
     pub fn build(
         cage: impl Into<Arc<Cage>>,
         options: SurfaceOptions,
@@ -354,7 +364,7 @@ impl Surface {
             PatchPlace {
                 role,
                 quad: square.quad,
-                domain: square.part(ring_domain(corner, ring, domain)),
+                domain: square.part(ring_domain(corner, around.sigma(), ring, domain)),
                 point: Some(point),
                 sector: Some(sector),
                 source: if role == Role::Cap { Source::Cap(patch) } else { Source::Ring(patch) },

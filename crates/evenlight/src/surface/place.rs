@@ -170,13 +170,14 @@ pub(super) fn turned_patch(corner: u8, patch: &Patch) -> Patch {
 }
 
 /// The (u,v) rectangle, in the square of its sector, of a patch of ring `ring` (from 0) that
-/// covers `domain` in ring 0.
+/// covers `domain` in ring 0; rings shrink by `sigma`.
 pub(super) fn ring_domain(
     corner: u8,
+    sigma: f64,
     ring: usize,
     [[a0, a1], [b0, b1]]: [[f64; 2]; 2],
 ) -> [[f64; 2]; 2] {
-    let scale = (0..ring).fold(1.0, |scale, _| 0.5 * scale);
+    let scale = (0..ring).fold(1.0, |scale, _| sigma * scale);
     let ends =
         [[a0, b0], [a1, b1]].map(|end| from_sector_parameters(corner, end.map(|x| scale * x)));
     [0, 1].map(|d| [ends[0][d].min(ends[1][d]), ends[0][d].max(ends[1][d])])

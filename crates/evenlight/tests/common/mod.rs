@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use evenlight::io::obj;
-use evenlight::{Cage, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions};
 
 fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes")
@@ -45,7 +45,7 @@ pub fn all_cages() -> Vec<(String, Arc<Cage>)> {
 }
 
 pub fn options(scheme: SchemeKind) -> SurfaceOptions {
-    SurfaceOptions { scheme, rules: RuleSet::Generated }
+    SurfaceOptions { scheme, ..SurfaceOptions::default() }
 }
 
 pub fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Surface {

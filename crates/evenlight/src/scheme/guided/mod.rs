@@ -29,19 +29,18 @@
 //! quadratic of chi. Bi-4 and bi-3 rings replace the segments of bi-5 ones by splines (module
 //! `segment`).
 
+mod model;
 mod sampling;
 mod segment;
 
-use super::Subdominant;
-use super::catmull_clark;
-use super::quadratic_attraction::contraction;
-use super::rules::{GuidePart, PatchRule, Row, Rules};
-use super::tables::{self, GuideWeights};
-use crate::angle::{cosine, sine};
+use super::contraction::Contraction;
+use super::rules::{Cuts, GuidePart, PatchRule, Row, Rules};
 use crate::net::{CNET_NODES, cnet_node};
+pub(super) use model::LAST_VALENCE;
+use model::Model;
 use sampling::sampled;
 use segment::{
-    Matrix, bb_at_end, bb_at_start, halves, in_units, matrix, num_pieces, pieces, raised,
+    Matrix, bb_at_end, bb_at_start, in_units, knots, matrix, num_pieces, parts, pieces, raised,
     taylor_at_end, taylor_at_start,
 };
 
@@ -55,25 +54,29 @@ const LAYERS: usize = 3;
 const NODES_TO_BB: [[f64; 4]; 4] =
     [[1.0, 4.0, 1.0, 0.0], [0.0, 4.0, 2.0, 0.0], [0.0, 2.0, 4.0, 0.0], [0.0, 1.0, 4.0, 1.0]];
 
-/// The rules with rings of bi-`degree` 3 to 6 at valence `n`, if there is a table.
-pub(crate) fn rules(n: usize, degree: usize) -> Option<Rules> {
-    let weights = tables::guide_weights(n)?;
-    let lambda = contraction(n);
-    let ring = Ring::new(n, degree);
-    let from_cnet = ring.border_of_cnet(n).into_iter().chain(guide_of_cnet(n, weights)).collect();
+/// The rules with rings of bi-`degree` 3 to 6 at valence `n`, if there is a guide.
+pub(super) fn rules(n: usize, degree: usize, contraction: Contraction) -> Option<Rules> {
+    let model = Model::new(n, contraction)?;
+    let ring = Ring::new(&model, degree);
+    let cuts = (model.sigma != 0.5).then(|| ring.cuts());
     Some(Rules {
         valence: n,
         nodes_per_sector: ring.num_nodes(),
-        refine: ring.refine(lambda),
+        refine: ring.refine(model.lambda),
         degree,
         split: num_pieces(degree),
         patches: ring.patches(),
         quadratic: None,
-        guide: Some(GuidePart { from_cnet, lambda }),
+        guide: Some(GuidePart {
+            from_cnet: ring.border_of_cnet(n).into_iter().chain(model.guide).collect(),
+            lambda: model.lambda,
+            cuts,
+        }),
     })
 }
 
-/// (i,j) with 0 < i + j and i, j <= 5, by i + j; the first five are the expansion.
+/// (i,j) with 0 < i + j and i, j <= 5, by i + j: the last nodes of every sector; the first five are
+/// the expansion.
 fn monomials() -> Vec<(usize, usize)> {
     let of_degree = |s: usize| (0..=5).rev().filter(move |&i| i <= s && s - i <= 5);
     (1..=10).flat_map(|s| of_degree(s).map(move |i| (i, s - i))).collect()
@@ -95,56 +98,13 @@ pub(crate) fn sampled_guide(map: &[Vec<f64>; 2], degree: usize) -> Vec<Vec<f64>>
     sampled(map, degree, count, &monomials())
 }
 
-/// The rows of the coefficients a_ij on a c-net: C(5,i) C(5,j) times the differences of p_ij,
-/// formed in integers and rounded once.
-fn guide_of_cnet(n: usize, weights: GuideWeights) -> Vec<Vec<f64>> {
-    let coef = |i: usize, j: usize| weights.coefficient(i, j);
-    let table: Vec<Vec<Vec<i64>>> =
-        (0..=5).map(|i| (0..=5).map(|j| coef(i, j)).collect()).collect();
-    let row = |(i, j): (usize, usize)| {
-        let weight = |node: usize| {
-            let mut sum = 0_i128;
-            for (k, l) in (0..=i).flat_map(|k| (0..=j).map(move |l| (k, l))) {
-                let sign = if (i - k + j - l).is_multiple_of(2) { 1 } else { -1 };
-                sum += sign * binomial(i, k) * binomial(j, l) * i128::from(table[k][l][node]);
-            }
-            (binomial(5, i) * binomial(5, j) * sum) as f64 / 1e18
-        };
-        (0..=CNET_NODES * n).map(weight).collect()
-    };
-    monomials().into_iter().map(row).collect()
-}
-
-fn binomial(n: usize, k: usize) -> i128 {
-    segment::choose(n, k) as i128
-}
-
-/// The characteristic ring in the sector coordinates of sector 0, u and v of the bi-3 patches in
-/// squares 0, 1, 2, scaled such that the ends of the outer edges are (1,0) and (0,1); but for
-/// n = 3, where chi(1,1) would lie outside the unit square of the guide: there that corner is
-/// (1,1).
-fn characteristic_ring(n: usize) -> [[Vec<f64>; 2]; 3] {
-    let rules = catmull_clark::rules(n);
-    let net = Subdominant::new(&rules).characteristic_net();
-    let refined = rules.refine(&net);
-    let angle = std::f64::consts::TAU / n as f64;
-    let (c, s) = (cosine(angle), sine(angle));
-    let squares = [0, 1, 2].map(|square| rules.patch(0, square, &net, &refined));
-    // The end of line -1, u = 1 and v = 0.
-    let [x, y, _] = squares[1][12];
-    let in_sector = |p: &[f64; 3]| {
-        let size = x * x + y * y;
-        let [p, q] = [(x * p[0] + y * p[1]) / size, (x * p[1] - y * p[0]) / size];
-        [p - c / s * q, q / s]
-    };
-    let corner = in_sector(&squares[0][15]);
-    let scale = 1.0 / corner[0].max(1.0);
-    squares.map(|square| [0, 1].map(|k| square.iter().map(|p| scale * in_sector(p)[k]).collect()))
-}
-
 /// The linear maps of a ring, on the nodes of one sector: first the layers outside u = 1, then
 /// those outside v = 1, layer by layer inside out, then the guide.
+///
+/// The patches outside are those of the ring before, so (1 - sigma) / sigma times as wide as the
+/// sector.
 struct Ring {
+    sigma: f64,
     /// The degree of the patches.
     degree: usize,
     /// The degree in which rings are sampled, 6 or 5.
@@ -154,11 +114,23 @@ struct Ring {
 }
 
 impl Ring {
-    fn new(n: usize, degree: usize) -> Self {
+    fn new(model: &Model, degree: usize) -> Self {
         let (sampled_degree, count) = if degree == 6 { (6, 4) } else { (5, 3) };
-        let inside = characteristic_ring(n)
-            .map(|square| sampled(&square, sampled_degree, count, &monomials()));
-        Self { degree, sampled: sampled_degree, inside }
+        let inside = model
+            .characteristic
+            .each_ref()
+            .map(|square| sampled(square, sampled_degree, count, &monomials()));
+        Self { sigma: model.sigma, degree, sampled: sampled_degree, inside }
+    }
+
+    /// The lines between the patches: the knots of the segments \[0,sigma\] and \[sigma,1\].
+    fn cuts(&self) -> Cuts {
+        let sigma = self.sigma;
+        let [inner, outer] = knots(self.degree, sigma);
+        let inside = inner.into_iter().map(|x| sigma * x);
+        let beyond = outer.into_iter().map(|x| sigma + (1.0 - sigma) * x);
+        let lines = [0.0].into_iter().chain(inside).chain([sigma]).chain(beyond).chain([1.0]);
+        Cuts { sigma, lines: lines.collect() }
     }
 
     /// The coefficients of a sampled patch along one side.
@@ -204,7 +176,7 @@ impl Ring {
 
     /// The patches of sector 0.
     fn patches(&self) -> Vec<PatchRule> {
-        (0..3).flat_map(|square| self.pieces(&self.square(square))).collect()
+        (0..3).flat_map(|square| self.pieces(square, &self.square(square))).collect()
     }
 
     /// The sampled patch of a square with its border, a row on the nodes for each coefficient.
@@ -226,16 +198,16 @@ impl Ring {
         rows
     }
 
-    /// Coefficient number `k` along one half of an edge of the `layer` inside it.
+    /// Coefficient number `k` along one part of an edge of the `layer` inside it.
     fn continued(&self, edge: usize, part: usize, layer: usize, k: usize) -> Vec<f64> {
         let across = matrix(LAYERS, |outside| {
             // The other coefficients of the outside patch do not enter.
             let mut patch = outside.to_vec();
             patch.resize(self.order(), 0.0);
-            bb_at_end(self.sampled, &in_units(0.5, &taylor_at_start(&patch, LAYERS)))
+            bb_at_end(self.sampled, &in_units(self.sigma, &taylor_at_start(&patch, LAYERS)))
         });
         let along = matrix(self.order(), |whole| {
-            let [low, high] = halves(self.degree, whole);
+            let [low, high] = parts(&knots(self.degree, self.sigma)[0], self.sigma, whole);
             if part == 0 { low } else { high }
         });
         let mut row = vec![0.0; self.num_nodes()];
@@ -247,17 +219,20 @@ impl Ring {
         row
     }
 
-    /// The patches that stand for a sampled one.
-    fn pieces(&self, square: &Matrix) -> Vec<PatchRule> {
+    /// The patches that stand for the sampled one of a square.
+    fn pieces(&self, which: usize, square: &Matrix) -> Vec<PatchRule> {
         let (split, order) = (num_pieces(self.degree), self.degree + 1);
-        let along = matrix(self.order(), |b| pieces(self.degree, b).concat());
+        let segments = knots(self.degree, self.sigma)
+            .map(|knots| matrix(self.order(), |b| pieces(&knots, b).concat()));
+        // Whether the square is in the outer part of u and of v.
+        let [of_u, of_v] = [[1, 1], [1, 0], [0, 1]][which].map(|part| &segments[part]);
         let coef = |i: usize, j: usize| {
             let mut sum = vec![0.0; self.num_nodes()];
             for (row, (k, l)) in square
                 .iter()
                 .zip((0..self.order()).flat_map(|k| (0..self.order()).map(move |l| (k, l))))
             {
-                let w = along[i][k] * along[j][l];
+                let w = of_u[i][k] * of_v[j][l];
                 if w != 0.0 {
                     sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += w * x);
                 }
@@ -275,7 +250,9 @@ impl Ring {
     /// The layers outside the border of the first ring, on a c-net: the tensor border b_ij of the
     /// net, continued.
     fn border_of_cnet(&self, n: usize) -> Vec<Vec<f64>> {
-        let across = matrix(4, |b| bb_at_start(self.sampled, &taylor_at_end(b, LAYERS)));
+        let width = (1.0 - self.sigma) / self.sigma;
+        let across =
+            matrix(4, |b| bb_at_start(self.sampled, &in_units(width, &taylor_at_end(b, LAYERS))));
         let along = matrix(4, |b| raised(b, self.sampled));
         let mut rows = vec![vec![0.0; CNET_NODES * n + 1]; self.num_border()];
         for (layer, k) in (0..LAYERS).flat_map(|m| (0..self.order()).map(move |k| (m, k))) {

@@ -69,7 +69,7 @@ const DENOMINATOR: i64 = 1_000_000_000_000_000_000;
 const PUBLISHED_DENOMINATOR: i64 = 100_000;
 
 /// The valences with tables.
-const VALENCES: [usize; 13] = [3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16];
+pub(crate) const VALENCES: [usize; 13] = [3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16];
 
 /// The valences of which [KP23-EG] and [KP23-QAS] print the rules.
 const PUBLISHED_VALENCES: [usize; 7] = [3, 5, 6, 7, 8, 9, 10];

@@ -1,0 +1,244 @@
+//! Eigenfunctions: what guided subdivision multiplies by a power of lambda in every ring.
+
+use std::sync::OnceLock;
+
+use super::guide::{HomogeneousGuide, MAX_TOTAL_DEGREE};
+use super::scalar::ScalarJet;
+use crate::rings::{power, ring_of, scaled_up};
+use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
+
+/// The eigenfunctions of a guided scheme at one valence \[KP18-Guided, Section 5\].
+///
+/// Function k follows a homogeneous guide of degree s. On ring l = 0, 1, 2, ... it is lambda^(s l)
+/// times what it is on ring 0:
+///
+/// ```text
+///   f(a/2, b/2) = lambda^s f(a,b),    in each sector.
+/// ```
+///
+/// So all rings are known from the first one. They are C2 everywhere but at the centre. Every guided
+/// surface is a sum of eigenfunctions from ring 1 on (ring 0 has the border of the surrounding
+/// surface instead of theirs). Function 0 is the constant 1, functions 1 and 2 are the
+/// characteristic map, the even one along the diagonal of sector 0.
+///
+/// ```
+/// use evenlight::SchemeKind;
+/// use evenlight::basis::Eigenfunctions;
+///
+/// let f = Eigenfunctions::new(SchemeKind::Guided5, 5).ok_or("guided5 has rules for n = 5")?;
+/// assert_eq!(f.len(), 17 * 5 + 5 + 6);
+/// let cubic = f.of_degree(3).start;
+/// let [outer, inner] = [0.75, 0.375].map(|a| f.eval(cubic, 2, a, 0.4 * a).value);
+/// assert!((inner - f.lambda().powi(3) * outer).abs() < 1e-15);
+/// # Ok::<(), &str>(())
+/// ```
+#[derive(Debug)]
+pub struct Eigenfunctions {
+    rules: Rules,
+    lambda: f64,
+    guides: Vec<HomogeneousGuide>,
+    /// The coefficients of ring 0 of every function, patch by patch.
+    rings: Vec<OnceLock<Vec<f64>>>,
+}
+
+impl Eigenfunctions {
+    /// The eigenfunctions of `guided3` to `guided6` at `valence`; `None` for other schemes and
+    /// valences without rules.
+    pub fn new(kind: SchemeKind, valence: usize) -> Option<Self> {
+        Self::with_contraction(kind, Contraction::CatmullClark, valence)
+    }
+
+    /// Those of another contraction: lambda is another, and sigma in the place of 1/2. `None` also
+    /// if the scheme has no such contraction.
+    pub fn with_contraction(
+        kind: SchemeKind,
+        contraction: Contraction,
+        valence: usize,
+    ) -> Option<Self> {
+        kind.guided_degree()?;
+        let rules = kind.rules(contraction, valence)?;
+        let lambda = rules.guide.as_ref()?.lambda;
+        let of_degree = |degree| HomogeneousGuide::all(valence, degree);
+        let guides: Vec<_> = (0..=MAX_TOTAL_DEGREE).flat_map(of_degree).collect();
+        let rings = guides.iter().map(|_| OnceLock::new()).collect();
+        Some(Self { rules, lambda, guides, rings })
+    }
+
+    /// The valence.
+    pub fn valence(&self) -> usize {
+        self.rules.valence
+    }
+
+    /// The subdominant eigenvalue.
+    pub fn lambda(&self) -> f64 {
+        self.lambda
+    }
+
+    /// The number of functions, 17n + n* + 6.
+    pub fn len(&self) -> usize {
+        self.guides.len()
+    }
+
+    /// False: there is always the constant.
+    pub fn is_empty(&self) -> bool {
+        self.guides.is_empty()
+    }
+
+    /// The guide that function `k` follows: its degree s, mode and parity.
+    ///
+    /// # Panics
+    ///
+    /// If `k` is not below [`Eigenfunctions::len`]; so do all methods that take a `k`.
+    pub fn guide(&self, k: usize) -> &HomogeneousGuide {
+        &self.guides[k]
+    }
+
+    /// The functions of eigenvalue lambda^`degree`.
+    pub fn of_degree(&self, degree: usize) -> std::ops::Range<usize> {
+        let below = |degree: usize| self.guides.partition_point(|g| g.degree() < degree);
+        below(degree)..below(degree + 1)
+    }
+
+    /// The eigenvalue of function `k`, lambda^s.
+    pub fn eigenvalue(&self, k: usize) -> f64 {
+        power(self.lambda, self.guides[k].degree())
+    }
+
+    /// What a function is multiplied by from ring 0 to ring `ring`.
+    fn factor(&self, k: usize, ring: usize) -> f64 {
+        power(self.eigenvalue(k), ring)
+    }
+
+    /// The bi-degree of the patches.
+    pub fn degree(&self) -> usize {
+        self.rules.degree
+    }
+
+    /// The number of patches in each sector of a ring.
+    pub fn patches_per_sector(&self) -> usize {
+        self.rules.patches_per_sector()
+    }
+
+    /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; as in
+    /// [`Rings::patch_domain`](crate::rings::Rings::patch_domain).
+    pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
+        self.rules.patch_domain(which)
+    }
+
+    /// The BB coefficients of function `k` on a patch, index along b fastest.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such sector or patch.
+    pub fn coefs(&self, k: usize, ring: usize, sector: usize, which: usize) -> Vec<f64> {
+        let factor = self.factor(k, ring);
+        self.first_ring(k, sector, which).iter().map(|c| factor * c).collect()
+    }
+
+    /// The coefficients on a patch of ring 0.
+    fn first_ring(&self, k: usize, sector: usize, which: usize) -> &[f64] {
+        let per_sector = self.patches_per_sector();
+        assert!(sector < self.valence() && which < per_sector, "patch {which}, sector {sector}");
+        let size = (self.degree() + 1) * (self.degree() + 1);
+        let first = (sector * per_sector + which) * size;
+        &self.rings[k].get_or_init(|| self.ring_of_function(k))[first..first + size]
+    }
+
+    /// Value and derivatives by a and b of function `k` at (a,b) of sector `sector`. At the centre
+    /// (0,0) there is only the value, the derivatives are NaN, but for the constant.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such sector or a, b are not from 0 to 1.
+    pub fn eval(&self, k: usize, sector: usize, a: f64, b: f64) -> ScalarJet {
+        assert!(sector < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
+        if a.max(b) == 0.0 {
+            return at_center(self.guides[k].degree());
+        }
+        let sigma = self.rules.sigma();
+        let ring = ring_of(a.max(b), sigma);
+        let which = self.rules.patch_at([a, b].map(|x| scaled_up(x, ring, sigma)));
+        self.eval_on(k, ring, sector, which, [a, b])
+    }
+
+    /// Like [`Eigenfunctions::eval`], but from a given patch; the polynomial is extrapolated if
+    /// (a,b) is not in the patch.
+    pub fn eval_on(
+        &self,
+        k: usize,
+        ring: usize,
+        sector: usize,
+        which: usize,
+        [a, b]: [f64; 2],
+    ) -> ScalarJet {
+        let (corner, size) = self.rules.patch_square(which);
+        let sigma = self.rules.sigma();
+        let own = |x: f64, k: usize| (scaled_up(x, ring, sigma) - corner[k]) / size[k];
+        let coefs = self.first_ring(k, sector, which);
+        let jet = ScalarJet::of_patch(self.degree(), coefs, own(a, 0), own(b, 1));
+        let speed = power(1.0 / sigma, ring);
+        jet.scaled(self.factor(k, ring), size.map(|size| speed / size))
+    }
+
+    /// The nodes of function `k` in front of ring 0, in the x coordinate. For the constant, which
+    /// nets leave out, all are zero.
+    fn net(&self, k: usize) -> Vec<[f64; 3]> {
+        let (rules, guide) = (&self.rules, &self.guides[k]);
+        let monomials = guide_monomials();
+        let border = rules.control_nodes_per_sector();
+        let mut net = Vec::with_capacity(rules.num_nodes());
+        for sector in 0..rules.valence {
+            net.extend(std::iter::repeat_n([0.0; 3], border));
+            let coef = |&(i, j): &(usize, usize)| [guide.coefficient(sector, i, j), 0.0, 0.0];
+            net.extend(monomials.iter().map(coef));
+        }
+        // The guide decides on the border of the next ring: the eigenvector has it already.
+        let next = rules.refine(&net);
+        let eigenvalue = self.eigenvalue(k);
+        let border_nodes = (0..net.len()).filter(|at| at % rules.nodes_per_sector < border);
+        border_nodes.for_each(|at| net[at][0] = next[at][0] / eigenvalue);
+        net
+    }
+
+    fn ring_of_function(&self, k: usize) -> Vec<f64> {
+        let (rules, per_sector) = (&self.rules, self.patches_per_sector());
+        let constant = f64::from(u8::from(self.guides[k].degree() == 0));
+        let net = self.net(k);
+        let refined = rules.refine(&net);
+        let patches = 0..per_sector * rules.valence;
+        let coefs =
+            patches.flat_map(|at| rules.patch(at / per_sector, at % per_sector, &net, &refined));
+        coefs.map(|c| c[0] + constant).collect()
+    }
+}
+
+/// The value at the centre of an eigenfunction of degree s.
+fn at_center(degree: usize) -> ScalarJet {
+    let [value, rest] = if degree == 0 { [1.0, 0.0] } else { [0.0, f64::NAN] };
+    ScalarJet { value, du: rest, dv: rest, duu: rest, duv: rest, dvv: rest }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The subdivision matrix itself, not its closed form, multiplies the nets of the functions.
+    #[test]
+    fn nets_are_eigenvectors_of_the_subdivision_matrix() {
+        for kind in SchemeKind::ALL.into_iter().filter(|kind| kind.guided_degree().is_some()) {
+            for n in [3, 5, 6, 7, 8, 9, 10, 16] {
+                let functions = Eigenfunctions::new(kind, n).unwrap();
+                for k in 1..functions.len() {
+                    let net = functions.net(k);
+                    let refined = functions.rules.refine(&net);
+                    let largest = net.iter().map(|p| p[0].abs()).fold(0.0, f64::max);
+                    let eigenvalue = functions.eigenvalue(k);
+                    for (old, new) in net.iter().zip(&refined) {
+                        let error = (new[0] / eigenvalue - old[0]).abs();
+                        assert!(error < 1e-13 * largest, "{} n = {n}, {k}", kind.name());
+                    }
+                }
+            }
+        }
+    }
+}
