@@ -9,6 +9,8 @@ use evenlight::cap::{CapKind, CapOptions};
 use evenlight::io::obj;
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
+use crate::threads::map_on_threads;
+
 /// Measure caps over the obstacle course.
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -32,7 +34,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         for kind in CapKind::ALL {
             for &rings in &arguments.rings {
                 let options = CapOptions { rings, kind };
-                let found = crate::shape::map_on_threads(&files, |file| {
+                let found = map_on_threads(&files, |file| {
                     measured(file, scheme, options).map_err(|error| error.to_string())
                 });
                 let found = found.into_iter().collect::<Result<Vec<_>, String>>()?;
@@ -88,8 +90,11 @@ fn measured(
     let (cage, _) = obj::read_cage(&std::fs::read(file)?)?;
     let cage: Arc<Cage> = Arc::new(cage);
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let surface = Surface::build(cage, SurfaceOptions { scheme, ..SurfaceOptions::default() })?;
-    let Ok(surface) = surface.with_caps(options) else { return Ok(Vec::new()) };
+    let mut surface = Surface::build(cage, SurfaceOptions { scheme, ..SurfaceOptions::default() })?;
+    if options.kind.check(scheme).is_err() {
+        return Ok(Vec::new());
+    }
+    surface.set_caps(Some(options))?;
     let reports = cap_report(&surface).into_iter().filter(|report| report.scale > 0.0);
     Ok(reports.map(|report| (name.clone(), report)).collect())
 }

@@ -16,6 +16,7 @@ mod pictures;
 #[cfg(feature = "library")]
 mod shape;
 mod tables;
+mod threads;
 mod tidy;
 
 use std::error::Error;

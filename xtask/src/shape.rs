@@ -9,13 +9,14 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use evenlight::analyse::curvature::{Range, RingCurvature, curvature_over};
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::io::obj;
 use evenlight::surface::Role;
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
+
+use crate::threads::map_on_threads;
 
 /// Measure the shape of all schemes over the obstacle course and write the tables of
 /// crates/evenlight/docs/06-shape.md.
@@ -159,23 +160,6 @@ fn measured_obstacles() -> Result<Vec<Row>, Box<dyn Error>> {
     let rows = map_on_threads(&files, |file| measured(file).map_err(|error| error.to_string()));
     let rows = rows.into_iter().collect::<Result<Vec<_>, String>>()?;
     Ok(rows.into_iter().flatten().collect())
-}
-
-/// `f` of all items, in their order, by as many threads as there are cores.
-pub fn map_on_threads<A: Sync, B: Send>(items: &[A], f: impl Fn(&A) -> B + Sync) -> Vec<B> {
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let numbers = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
-        let mine = numbers.take_while(|&k| k < items.len());
-        mine.map(|k| (k, f(&items[k]))).collect::<Vec<_>>()
-    };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let mut found: Vec<(usize, B)> = std::thread::scope(|scope| {
-        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        handles.into_iter().flat_map(|h| h.join().expect("measuring does not panic")).collect()
-    });
-    found.sort_by_key(|&(k, _)| k);
-    found.into_iter().map(|(_, b)| b).collect()
 }
 
 /// The rows of one cage.

@@ -7,6 +7,8 @@ use std::io::{self, Write};
 use clap::Args;
 use evenlight_guide::emit::{TableFile, VALENCES, table_files};
 
+use crate::threads::map_on_threads;
+
 /// Derive the tables of refinement weights and write them.
 #[derive(Args)]
 pub struct Arguments {
@@ -20,8 +22,10 @@ const FOLDER: &str = "crates/evenlight/src/scheme/tables";
 /// Writes or checks the tables of every valence, with a line for each.
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let (mut stale, mut count) = (0, 0);
-    for valence in VALENCES {
-        let tables = table_files(valence);
+    // The large valences take longest, and so come first.
+    let valences: Vec<usize> = VALENCES.into_iter().rev().collect();
+    let derived = map_on_threads(&valences, |&valence| table_files(valence));
+    for (valence, tables) in valences.into_iter().zip(derived).rev() {
         for table in tables.map_err(|defect| format!("valence {valence}: {defect}"))? {
             let fresh = is_on_disk(&table);
             if !arguments.check && !fresh {
@@ -51,6 +55,9 @@ fn is_on_disk(table: &TableFile) -> bool {
 
 fn write(table: &TableFile) -> Result<(), Box<dyn Error>> {
     let file = crate::workspace(FOLDER).join(&table.name);
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder)?;
+    }
     fs::write(&file, &table.source)
         .map_err(|error| format!("cannot write {}: {error}", file.display()).into())
 }
@@ -62,5 +69,5 @@ fn report(table: &TableFile, fresh: bool, check: bool) -> String {
         (false, false) => "written",
     };
     let TableFile { name, source } = table;
-    format!("{name:10} {:6} bytes, symmetric, sums to 1: {state}", source.len())
+    format!("{name:18} {:6} bytes, symmetric, sums to 1: {state}", source.len())
 }

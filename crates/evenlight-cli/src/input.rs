@@ -8,11 +8,12 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use evenlight::cap::{CapKind, CapOptions, MAX_VALENCE};
 use evenlight::io::load::{Format, LoadError, Loaded};
 use evenlight::{Cage, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
-use crate::options::SurfaceArgs;
+use crate::options::{CapArg, SurfaceArgs};
 
 /// A place to read from.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +89,36 @@ pub fn read_surface(args: &SurfaceArgs) -> Result<Surface, Failure> {
     report_omitted(&surface, &args.cage)?;
     edits.apply(&mut surface)?;
     Ok(surface)
+}
+
+/// The same, with caps behind `rings` rings if they are asked for.
+pub fn read_closed_surface(args: &SurfaceArgs, cap: CapArg, rings: u8) -> Result<Surface, Failure> {
+    let kind = cap.kind(&[args.scheme])?;
+    let mut surface = read_surface(args)?;
+    close(&mut surface, kind, rings.into(), &args.cage)?;
+    Ok(surface)
+}
+
+/// Closes a surface by caps of some kind behind `rings` rings; points that have none are said on
+/// stderr.
+pub fn close(
+    surface: &mut Surface,
+    kind: Option<CapKind>,
+    rings: usize,
+    source: &Source,
+) -> Result<(), Failure> {
+    let options = kind.map(|kind| CapOptions { rings, kind });
+    surface.set_caps(options).map_err(|error| Failure::Usage(format!("--cap: {error}")))?;
+    let points = surface.points_without_cap();
+    if !points.is_empty() {
+        let all = surface.extraordinary_points().len();
+        warn(format_args!(
+            "{source}: {} of {all} extraordinary points have no cap, but rings without end: there \
+             are caps for valences 3 to {MAX_VALENCE}",
+            points.len()
+        ));
+    }
+    Ok(())
 }
 
 /// The cage in `source`; what is ignored is said on stderr.

@@ -4,8 +4,10 @@ use std::ops::RangeInclusive;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use evenlight::cap::{CapError, CapKind};
 use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
 
+use crate::error::Failure;
 use crate::input::Source;
 use crate::q::QArg;
 
@@ -37,6 +39,61 @@ pub struct SurfaceArgs {
 
     #[command(flatten)]
     pub q: QArg,
+}
+
+/// What closes the holes behind rings.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct CapArg {
+    /// Close the hole behind the last of the --rings around every extraordinary point by
+    /// finitely many patches, so that the surface has no end of rings
+    #[arg(long, value_enum, default_value_t = CapChoice::None)]
+    pub cap: CapChoice,
+}
+
+/// The caps by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CapChoice {
+    /// Rings without end
+    None,
+    /// What suits the scheme: bi6 for guided6, bi4 for guided3 and guided4, else bi5
+    Auto,
+    /// Bi-3, 3 x 3 patches per sector; tangent planes across lines agree to small angles only
+    Bi3,
+    /// Bi-4, 2 x 2 patches per sector
+    Bi4,
+    /// Bi-5, 2 x 2 patches per sector
+    Bi5,
+    /// Bi-6, one patch per sector
+    Bi6,
+}
+
+impl CapArg {
+    /// The kind of caps, if there are to be any; checked against the schemes.
+    pub fn kind(self, schemes: &[SchemeKind]) -> Result<Option<CapKind>, Failure> {
+        let kind = match self.cap {
+            CapChoice::None => return Ok(None),
+            CapChoice::Auto => CapKind::Auto,
+            CapChoice::Bi3 => CapKind::Bi3,
+            CapChoice::Bi4 => CapKind::Bi4,
+            CapChoice::Bi5 => CapKind::Bi5,
+            CapChoice::Bi6 => CapKind::Bi6,
+        };
+        let checked: Result<(), CapError> =
+            schemes.iter().try_for_each(|&scheme| kind.check(scheme));
+        checked.map_err(|error| Failure::Usage(format!("--cap: {error}")))?;
+        Ok(Some(kind))
+    }
+}
+
+/// Where caps are, for commands to which rings are nothing else.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct CapRingsArg {
+    #[command(flatten)]
+    pub cap: CapArg,
+
+    /// Number of rings in front of caps, 0 to 48
+    #[arg(long, value_name = "K", default_value_t = 6, requires = "cap", value_parser = clap::value_parser!(u8).range(0..=48))]
+    pub rings: u8,
 }
 
 /// Which rules the scheme takes.
@@ -110,6 +167,9 @@ fn about_scheme(scheme: SchemeKind) -> &'static str {
         SchemeKind::Guided4 => "Guided C2: bi-4, 12n patches per ring; C1, curvature bounded",
         SchemeKind::Guided5 => "Guided C2: bi-5, 3n patches per ring; C1, curvature bounded",
         SchemeKind::Guided6 => "Guided C2: bi-6, 3n patches per ring; C2, curvature continuous",
+        SchemeKind::Fair4 => "Fairness-optimal: QAS4's net with the rules of least energy, bi-4",
+        SchemeKind::Fair4d => "Fairness-optimal: EG's net with the rules of least energy, bi-4",
+        SchemeKind::Fair3 => "Fairness-optimal: QAS3's net with the rules of least energy, bi-3",
     }
 }
 

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 
 use crate::error::Failure;
 use crate::input;
-use crate::options::{SurfaceArgs, rules_name};
+use crate::options::{CapArg, SurfaceArgs, rules_name};
 use crate::output::Target;
 use crate::progress::Progress;
 
@@ -31,6 +31,9 @@ pub struct PatchesArgs {
     /// Number of rings around every extraordinary point; ring k reaches to 2^-k of a sector
     #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=48))]
     rings: u8,
+
+    #[command(flatten)]
+    cap: CapArg,
 }
 
 /// Files that hold patches.
@@ -47,13 +50,13 @@ pub fn run(args: &PatchesArgs, quiet: bool) -> Result<(), Failure> {
     let format = args.output.format(args.format)?;
     let progress = Progress::new(2, quiet);
     progress.stage("Building the surface");
-    let surface = input::read_surface(&args.surface)?;
+    let surface = input::read_closed_surface(&args.surface, args.cap, args.rings)?;
     progress.step();
     progress.stage("Writing patches");
     write(&surface, args.rings.into(), format, &args.output)
 }
 
-/// Writes all regular patches and `rings` rings of `surface`.
+/// Writes all regular patches, `rings` rings and, if it is closed, the caps of `surface`.
 pub fn write(
     surface: &Surface,
     rings: usize,

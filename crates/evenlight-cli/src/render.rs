@@ -8,7 +8,7 @@ use evenlight::{SchemeKind, Surface, VertexId};
 
 use crate::error::Failure;
 use crate::input;
-use crate::options::{SurfaceArgs, parse_pair, parse_point, scheme_parser};
+use crate::options::{CapRingsArg, SurfaceArgs, parse_pair, parse_point, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
 
@@ -17,6 +17,9 @@ use crate::progress::Progress;
 pub struct RenderArgs {
     #[command(flatten)]
     surface: SurfaceArgs,
+
+    #[command(flatten)]
+    caps: CapRingsArg,
 
     /// Schemes to show side by side, as `cc,eg,qas4`, with one camera and one range of colours
     #[arg(
@@ -177,12 +180,14 @@ fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
     let SurfaceArgs { cage: source, scheme, q, .. } = &args.surface;
     let single = [*scheme];
     let schemes = if args.compare.is_empty() { &single[..] } else { &args.compare };
+    let cap = args.caps.cap.kind(schemes)?;
     let edits = q.read(source, schemes)?;
     let cage = input::read_cage(source)?;
     let build = |&scheme| -> Result<Surface, Failure> {
         let options = args.surface.rules.options_among(schemes, scheme);
         let mut surface = input::build(Arc::clone(&cage), options, source)?;
         edits.apply(&mut surface)?;
+        input::close(&mut surface, cap, args.caps.rings.into(), source)?;
         Ok(surface)
     };
     let surfaces = schemes.iter().map(build).collect::<Result<Vec<_>, _>>()?;

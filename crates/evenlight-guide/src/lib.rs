@@ -69,6 +69,7 @@ pub mod guided;
 pub mod jet;
 pub mod linear;
 pub mod nets;
+pub mod optimal;
 pub mod quadratic;
 pub mod quadratic_attraction;
 pub mod real;

@@ -27,7 +27,7 @@ use crate::real::Real;
 const ORDER: usize = 3;
 
 /// The nodes per variable of the Gauss sum.
-const NODES: usize = 6;
+pub(crate) const NODES: usize = 6;
 
 /// The matrix of E_0 for one square of the ring, on its (d + 1)^2 BB coefficients.
 pub fn ring_energy(chi: &CharacteristicRing, square: Square, degree: usize) -> Matrix {
@@ -75,7 +75,7 @@ fn derivative_products(degree: usize, i: usize) -> Matrix {
 }
 
 /// Adds `weight` times the product of the row with itself.
-fn add_square(matrix: &mut Matrix, row: &[Real], weight: Real) {
+pub(crate) fn add_square(matrix: &mut Matrix, row: &[Real], weight: Real) {
     for (i, &x) in row.iter().enumerate() {
         let scaled = weight * x;
         for (j, &y) in row.iter().enumerate() {
@@ -95,6 +95,17 @@ fn in_plane(chi: &CharacteristicRing, square: Square) -> [Matrix; 2] {
 /// The rows of d_X^(3-i) d_Y^i, i = 0..3, on the BB coefficients of a patch of the given degree, at
 /// a point; and the area of the map there, |d(X,Y)/d(u,v)|.
 fn third_derivatives(plane: &[Matrix; 2], degree: usize, at: [Real; 2]) -> (Matrix, Real) {
+    derivatives_in_plane(plane, degree, ORDER, at)
+}
+
+/// The rows of d_X^(k-i) d_Y^i, i = 0..k, k at most 3, on the BB coefficients of a patch of the
+/// given degree, at a point; and the area of the map `plane` there, |d(X,Y)/d(u,v)|.
+pub(crate) fn derivatives_in_plane(
+    plane: &[Matrix; 2],
+    degree: usize,
+    order: usize,
+    at: [Real; 2],
+) -> (Matrix, Real) {
     let count = ORDER + 1;
     let jets = plane.each_ref().map(|patch| {
         let [along_u, along_v] = at.map(|t| taylor(patch.num_rows() - 1, count, t));
@@ -107,13 +118,13 @@ fn third_derivatives(plane: &[Matrix; 2], degree: usize, at: [Real; 2]) -> (Matr
     let parameters = parameters
         .select_rows(&exponents().iter().map(|&(a, b)| count * a + b).collect::<Vec<_>>());
     let in_plane = monomials.solve(&parameters).expect("the characteristic ring is regular");
-    let rows = (0..=ORDER).map(|i| {
-        let (a, b) = (ORDER - i, i);
+    let rows = (0..=order).map(|i| {
+        let (a, b) = (order - i, i);
         let row = exponents().iter().position(|&e| e == (a, b)).expect("3 is the highest degree");
         (row, factorial(a) * factorial(b))
     });
     let rows: Vec<_> = rows.collect();
-    let derivatives = Matrix::from_fn(ORDER + 1, in_plane.num_columns(), |i, column| {
+    let derivatives = Matrix::from_fn(order + 1, in_plane.num_columns(), |i, column| {
         rows[i].1 * in_plane[(rows[i].0, column)]
     });
     (derivatives, area.abs())
@@ -149,7 +160,7 @@ fn factorial(n: usize) -> Real {
 
 /// The nodes and weights of the Gauss sum on [0,1]: the roots of the Legendre polynomial of
 /// degree 6, by Newton's method from their known approximations.
-fn gauss_nodes() -> [(Real, Real); NODES] {
+pub(crate) fn gauss_nodes() -> [(Real, Real); NODES] {
     const ROOTS: [f64; NODES / 2] = [0.238_619_186, 0.661_209_386, 0.932_469_514];
     std::array::from_fn(|k| {
         let guess = if k < 3 { -ROOTS[2 - k] } else { ROOTS[k - 3] };

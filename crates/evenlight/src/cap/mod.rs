@@ -148,6 +148,16 @@ impl CapKind {
         }
     }
 
+    /// Whether caps of this kind can join the rings of a scheme.
+    ///
+    /// # Errors
+    ///
+    /// [`CapError::Degree`] if the rings are of a higher degree.
+    pub fn check(self, scheme: SchemeKind) -> Result<(), CapError> {
+        let (ring, cap) = (scheme.degree(), self.degree(scheme));
+        if cap < ring { Err(CapError::Degree { scheme, ring, cap }) } else { Ok(()) }
+    }
+
     /// The splines of a sector behind rings whose squares are split in `split`.
     fn space(self, scheme: SchemeKind, split: usize) -> Space {
         let degree = self.degree(scheme);
@@ -266,11 +276,8 @@ impl ValenceCap {
         if valence == 4 || !(3..=MAX_VALENCE).contains(&valence) {
             return Err(CapError::Valence { valence });
         }
+        kind.check(scheme)?;
         let space = kind.space(scheme, rules.split);
-        if space.degree < rules.degree {
-            let (ring, cap) = (rules.degree, space.degree);
-            return Err(CapError::Degree { scheme, ring, cap });
-        }
         if rules.cuts().is_some() && rules.split > 1 {
             return Err(CapError::Contraction { scheme });
         }

@@ -11,10 +11,18 @@ use crate::net::{DNET_NODES, NodeRef, Spline};
 
 /// The rules of Evolving-Guide subdivision at valence `n`, if there are tables for it.
 pub(crate) fn rules(n: usize, published: bool) -> Option<Rules> {
-    let weights = tables::eg_weights(n, published)?;
+    Some(rules_of(n, &tables::eg_weights(n, published)?))
+}
+
+/// The rules of fair4d at valence `n`, if there are tables for it: the same layout.
+pub(crate) fn fair_rules(n: usize) -> Option<Rules> {
+    Some(rules_of(n, &tables::fair_evolving_weights(n)?))
+}
+
+fn rules_of(n: usize, weights: &EgWeights) -> Rules {
     let empty = RowBuilder::new(n, DNET_NODES);
-    let node = |k: usize| refined_node(&empty, k % 4, k / 4, &weights);
-    Some(Rules {
+    let node = |k: usize| refined_node(&empty, k % 4, k / 4, weights);
+    Rules {
         valence: n,
         nodes_per_sector: DNET_NODES,
         refine: (0..DNET_NODES).map(node).collect(),
@@ -23,7 +31,7 @@ pub(crate) fn rules(n: usize, published: bool) -> Option<Rules> {
         patches: Spline::BiQuartic.patches(&empty),
         quadratic: None,
         guide: None,
-    })
+    }
 }
 
 /// The row of the new node d_ij.

@@ -49,6 +49,15 @@ pub enum SchemeKind {
     Guided5,
     /// Guided C2 subdivision [KP18-Guided]: bi-6 rings, curvature continuous at the centre.
     Guided6,
+    /// Fairness-optimal subdivision, ours: the net of [`Self::Qas4`] with the rules of least energy,
+    /// bi-4 rings, curvature bounded at the centre.
+    Fair4,
+    /// Fairness-optimal subdivision without a quadratic that can be set: the net of
+    /// [`Self::EvolvingGuide`], bi-4 rings; curvature is bounded at the centre, but not given.
+    Fair4d,
+    /// Fairness-optimal subdivision: the net of [`Self::Qas3`], 2 x 2 bi-3 macro-patches, curvature
+    /// bounded at the centre.
+    Fair3,
 }
 
 /// Which tables of weights are used, by schemes that have tables.
@@ -59,13 +68,13 @@ pub enum RuleSet {
     #[default]
     Generated,
     /// As the papers print them, truncated to 5 digits: valences 3 and 5 to 10. None are printed of
-    /// guided subdivision.
+    /// guided and fairness-optimal subdivision.
     Published,
 }
 
 impl SchemeKind {
     /// All schemes, in the order in which they are listed to users.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::CatmullClark,
         Self::EvolvingGuide,
         Self::Pas3,
@@ -76,6 +85,9 @@ impl SchemeKind {
         Self::Guided4,
         Self::Guided5,
         Self::Guided6,
+        Self::Fair4,
+        Self::Fair4d,
+        Self::Fair3,
     ];
 
     /// The short name used in commands and files.
@@ -91,6 +103,9 @@ impl SchemeKind {
             Self::Guided4 => "guided4",
             Self::Guided5 => "guided5",
             Self::Guided6 => "guided6",
+            Self::Fair4 => "fair4",
+            Self::Fair4d => "fair4d",
+            Self::Fair3 => "fair3",
         }
     }
 
@@ -120,22 +135,37 @@ impl SchemeKind {
         self.check_contraction(contraction).ok()?;
         match (self, rules) {
             (Self::CatmullClark, _) => Some(MAX_CATMULL_CLARK_VALENCE),
-            (_, RuleSet::Published) => self.guided_degree().is_none().then_some(PUBLISHED_VALENCE),
+            (_, RuleSet::Published) => self.is_published().then_some(PUBLISHED_VALENCE),
             (_, RuleSet::Generated) if self.guided_degree().is_some() => Some(guided::LAST_VALENCE),
             (_, RuleSet::Generated) => Some(TABULATED_VALENCE),
         }
     }
 
+    /// Whether there is a paper that prints the weights.
+    fn is_published(self) -> bool {
+        let ours = matches!(self, Self::Fair4 | Self::Fair4d | Self::Fair3);
+        !ours && self.guided_degree().is_none()
+    }
+
     /// Whether the scheme carries a quadratic q along, which can be set; curvature is bounded at
     /// extraordinary points then.
     pub fn has_quadratic(self) -> bool {
-        matches!(self, Self::Qas3 | Self::Qas4)
+        matches!(self, Self::Qas3 | Self::Qas4 | Self::Fair3 | Self::Fair4)
     }
 
     /// Whether curvature is bounded at extraordinary points, and given there: that of the quadratic
     /// or of the guide. With `guided6` it is continuous.
     pub fn has_center_curvature(self) -> bool {
         self.has_quadratic() || self.guided_degree().is_some()
+    }
+
+    /// The degree of the rings in both parameters.
+    pub fn degree(self) -> usize {
+        let of_spline = match self.spline() {
+            Some(Spline::BiQuartic) => 4,
+            Some(Spline::BiCubic) | None => 3,
+        };
+        self.guided_degree().unwrap_or(of_spline)
     }
 
     /// The degree of the rings of guided subdivision.
@@ -156,7 +186,8 @@ impl SchemeKind {
             Self::CatmullClark => None,
             Self::Guided3 | Self::Guided4 | Self::Guided5 | Self::Guided6 => None,
             Self::EvolvingGuide | Self::Pas4 | Self::Qas4 => Some(Spline::BiQuartic),
-            Self::Pas3 | Self::Qas3 => Some(Spline::BiCubic),
+            Self::Fair4 | Self::Fair4d => Some(Spline::BiQuartic),
+            Self::Pas3 | Self::Qas3 | Self::Fair3 => Some(Spline::BiCubic),
         }
     }
 
@@ -182,6 +213,9 @@ impl SchemeKind {
             Self::Qas3 => quadratic_attraction::rules(n, Spline::BiCubic, published),
             Self::Qas4 => quadratic_attraction::rules(n, Spline::BiQuartic, published),
             Self::Guided3 | Self::Guided4 | Self::Guided5 | Self::Guided6 => None,
+            Self::Fair4 => quadratic_attraction::fair_rules(n, Spline::BiQuartic),
+            Self::Fair4d => evolving_guide::fair_rules(n),
+            Self::Fair3 => quadratic_attraction::fair_rules(n, Spline::BiCubic),
         }
     }
 

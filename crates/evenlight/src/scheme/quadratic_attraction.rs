@@ -36,9 +36,20 @@ const SPECIAL: [(usize, usize); 6] = [(1, 1), (2, 1), (1, 2), (2, 2), (3, 1), (3
 /// bi-3.
 pub(crate) fn rules(n: usize, spline: Spline, published: bool) -> Option<Rules> {
     let weights = tables::qas_weights(n, published)?;
-    let bases = Bases::new(n, spline);
+    Some(composed(n, spline, Bases::new(n, spline), &weights))
+}
+
+/// The rules with a quadratic whose weights are those of the scheme's own spline: fair4 for bi-4,
+/// fair3 for bi-3.
+pub(crate) fn fair_rules(n: usize, spline: Spline) -> Option<Rules> {
+    let weights = tables::fair_weights(n, spline)?;
+    Some(composed(n, spline, Bases::new(n, Spline::BiQuartic), &weights))
+}
+
+/// The rules with a quadratic from weights on the nets that `bases` lead to.
+fn composed(n: usize, spline: Spline, bases: Bases, weights: &QasWeights) -> Rules {
     let empty = RowBuilder::new(n, NODES);
-    let step = quartic_step(n, &weights);
+    let step = quartic_step(n, weights);
     let mut refine: Vec<Row> = (0..DNET_NODES)
         .map(|k| match is_special(k) {
             true => bases.refined_node(&empty, &step, k),
@@ -49,8 +60,8 @@ pub(crate) fn rules(n: usize, spline: Spline, published: bool) -> Option<Rules> 
     let own = |k: usize, w: f64| vec![(DNET_NODES + k, w)];
     refine.extend([0, 1].map(|k| own(k, lambda)));
     refine.extend([2, 3, 4].map(|k| own(k, lambda * lambda)));
-    let from_net = default_quadratic(n, &weights).map(|row| bases.in_own_basis(&row));
-    Some(Rules {
+    let from_net = default_quadratic(n, weights).map(|row| bases.in_own_basis(&row));
+    Rules {
         valence: n,
         nodes_per_sector: NODES,
         refine,
@@ -59,7 +70,7 @@ pub(crate) fn rules(n: usize, spline: Spline, published: bool) -> Option<Rules> 
         patches: spline.patches(&empty),
         quadratic: Some(QuadraticPart { from_net, lambda }),
         guide: None,
-    })
+    }
 }
 
 /// The rules with the default quadratic of every net put in: PAS4 for bi-4 splines, PAS3 for bi-3.

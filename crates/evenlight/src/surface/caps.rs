@@ -54,8 +54,8 @@ impl Caps {
 }
 
 impl Surface {
-    /// The same surface with the rings behind the first `options.rings` replaced by caps: finitely
-    /// many patches.
+    /// Replaces the rings behind the first `options.rings` by caps, finitely many patches; `None` for
+    /// rings without end.
     ///
     /// A surface that is closed like this has derivatives and curvature at extraordinary points too.
     /// Around points without caps (of valence 2 or above [`MAX_VALENCE`](crate::cap::MAX_VALENCE))
@@ -64,10 +64,10 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// [`CapError::Degree`] if the degree is below that of the rings.
-    pub fn with_caps(mut self, options: CapOptions) -> Result<Self, CapError> {
-        self.caps = Some(Caps::new(&self.rings, options)?);
-        Ok(self)
+    /// [`CapError`] if there are no such caps for the rings; the surface stays as it was.
+    pub fn set_caps(&mut self, options: Option<CapOptions>) -> Result<(), CapError> {
+        self.caps = options.map(|options| Caps::new(&self.rings, options)).transpose()?;
+        Ok(())
     }
 
     /// How the surface is closed, if it is.

@@ -71,11 +71,7 @@ pub(crate) struct EgWeights {
 ///
 /// `None` if there is no table, or nothing printed.
 pub(crate) fn eg_weights(valence: usize, published: bool) -> Option<EgWeights> {
-    let table = TABLES[table_index(valence, published)?];
-    let row =
-        |rule, r| std::array::from_fn(|node| weight(table.numerator(rule, (r, node)), published));
-    let rows = |rule| (0..valence as isize).map(|r| row(rule, r)).collect();
-    Some(EgWeights { weights: RULES.map(rows) })
+    Some(TABLES[table_index(valence, published)?].weights(published))
 }
 
 impl EgWeights {
@@ -91,8 +87,16 @@ impl EgWeights {
 }
 
 impl EgTable {
+    /// All weights.
+    pub(super) fn weights(&self, published: bool) -> EgWeights {
+        let numerator = |rule, at| weight(self.numerator(rule, at), published);
+        let row = |rule, r| std::array::from_fn(|node| numerator(rule, (r, node)));
+        let rows = |rule| (0..self.valence as isize).map(|r| row(rule, r)).collect();
+        EgWeights { weights: RULES.map(rows) }
+    }
+
     /// The numerator of the weight of a node of sector s + r, listed or not.
-    fn numerator(&self, (h, k): (usize, usize), (r, node): (isize, usize)) -> i64 {
+    pub(super) fn numerator(&self, (h, k): (usize, usize), (r, node): (isize, usize)) -> i64 {
         let (mirror, image) = Mirror::of_rule((h, k));
         let rows = match (h, k) {
             (1, 1) => self.rule_11,

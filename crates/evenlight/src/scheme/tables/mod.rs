@@ -2,7 +2,8 @@
 //!
 //! The files `eg_nNN.rs` hold the rules of Evolving-Guide subdivision, read in [`eg`]; the files
 //! `qas_nNN.rs` those of Quadratic-Attraction subdivision, read in [`qas`]; the files
-//! `guided_nNN.rs` the guides of Guided C2 subdivision, read in [`guided`]. They are exact integers
+//! `guided_nNN.rs` the guides of Guided C2 subdivision, read in [`guided`]; the folder `fair` our own
+//! rules, read in [`fair`]. They are exact integers
 //! over [`DENOMINATOR`]; the weight of the extraordinary point is never listed, being one minus the
 //! sum of all others. What a mirror symmetry repeats is, but for the convenience of whole rows,
 //! left out, and filled in by [`Mirror`].
@@ -25,6 +26,7 @@ mod eg_n13;
 mod eg_n14;
 mod eg_n15;
 mod eg_n16;
+mod fair;
 mod guided;
 mod guided_n03;
 mod guided_n05;
@@ -55,6 +57,7 @@ mod qas_n15;
 mod qas_n16;
 
 pub(crate) use eg::{EgWeights, eg_weights};
+pub(crate) use fair::{fair_evolving_weights, fair_weights};
 pub(crate) use guided::{GuideWeights, guide_weights};
 pub(crate) use qas::{QasWeights, qas_weights};
 

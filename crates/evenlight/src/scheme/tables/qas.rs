@@ -120,19 +120,7 @@ pub(crate) struct QasWeights {
 ///
 /// `None` if there is no table, or nothing printed.
 pub(crate) fn qas_weights(valence: usize, published: bool) -> Option<QasWeights> {
-    let table = TABLES[table_index(valence, published)?];
-    let weight = |numerator| weight(numerator, published);
-    Some(QasWeights {
-        kappa: RULES.map(|rule| {
-            let row = |r| std::array::from_fn(|node| weight(table.kappa(rule, (r, node))));
-            turns(rule).map(|r| (r, row(r))).collect()
-        }),
-        tau: RULES.map(|rule| table.tau(rule).map(weight)),
-        mu: [4, 5].map(|m| {
-            let row = |r| std::array::from_fn(|node| weight(table.mu(m, (r, node))));
-            (0..valence as isize).map(row).collect()
-        }),
-    })
+    Some(TABLES[table_index(valence, published)?].weights(published))
 }
 
 /// The turns r of the sectors s + r that a rule reaches.
@@ -178,9 +166,25 @@ impl QasWeights {
 }
 
 impl QasTable {
+    /// All weights.
+    pub(super) fn weights(&self, published: bool) -> QasWeights {
+        let weight = |numerator| weight(numerator, published);
+        QasWeights {
+            kappa: RULES.map(|rule| {
+                let row = |r| std::array::from_fn(|node| weight(self.kappa(rule, (r, node))));
+                turns(rule).map(|r| (r, row(r))).collect()
+            }),
+            tau: RULES.map(|rule| self.tau(rule).map(weight)),
+            mu: [4, 5].map(|m| {
+                let row = |r| std::array::from_fn(|node| weight(self.mu(m, (r, node))));
+                (0..self.valence as isize).map(row).collect()
+            }),
+        }
+    }
+
     /// The numerator of the weight kappa of a node of sector s + r, listed or not; zero out of the
     /// rule's reach.
-    fn kappa(&self, (h, k): (usize, usize), (r, node): (isize, usize)) -> i64 {
+    pub(super) fn kappa(&self, (h, k): (usize, usize), (r, node): (isize, usize)) -> i64 {
         let (mirror, image) = Mirror::of_rule((h, k));
         let listed = match (h, k) {
             (1, 1) => self.kappa_11,
@@ -197,7 +201,7 @@ impl QasTable {
     }
 
     /// The numerators of tau_2..tau_6.
-    fn tau(&self, (h, k): (usize, usize)) -> [i64; 5] {
+    pub(super) fn tau(&self, (h, k): (usize, usize)) -> [i64; 5] {
         match (h, k) {
             (1, 1) => self.tau_11,
             (2, 1) => self.tau_21,
@@ -209,7 +213,7 @@ impl QasTable {
     }
 
     /// The numerator of the weight mu of a node of sector s + r, listed or not, in q_4 or q_5.
-    fn mu(&self, m: usize, node: (isize, usize)) -> i64 {
+    pub(super) fn mu(&self, m: usize, node: (isize, usize)) -> i64 {
         let (rows, mirror) = match m {
             4 => (self.mu_4, Mirror::Line),
             _ => (self.mu_5, Mirror::Diagonal),
