@@ -267,7 +267,7 @@ impl Rings {
     }
 
     /// The inverse of [`Rings::in_hole`].
-    pub(crate) fn from_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn out_of_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
         at.map(|x| (0..ring).fold(x, |x, _| self.sigma() * x))
     }
 

@@ -6,8 +6,7 @@ use evenlight::cap::{Cap, CapError, CapKind, CapOptions};
 use evenlight::net::CNet;
 use evenlight::point::{Vector, add, cross, dot, norm, scale, sub};
 use evenlight::rings::Rings;
-use evenlight::scheme::Variant;
-use evenlight::{Contraction, RuleSet, SchemeKind, SurfacePoint};
+use evenlight::{RuleSet, SchemeKind, SurfacePoint};
 use serde_json::Value;
 
 const VALENCES: [usize; 7] = [3, 5, 6, 7, 8, 9, 10];
@@ -152,6 +151,7 @@ fn caps_of_plane_nets_are_plane_and_regular() {
 #[test]
 #[cfg(feature = "derive")]
 fn caps_join_rings_of_any_contraction() {
+    use evenlight::{Contraction, scheme::Variant};
     for (n, scheme) in [3, 5, 8].into_iter().flat_map(|n| SchemeKind::ALL.map(|s| (n, s))) {
         let contraction = Contraction::Lambda(0.42);
         if scheme.check_contraction(contraction).is_err() {

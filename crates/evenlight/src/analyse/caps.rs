@@ -179,7 +179,7 @@ impl Around<'_> {
     /// Against the ring that would come next, which joins the last one with second derivatives.
     fn ring(self) -> Defect {
         let at = |s: usize, hole: [f64; 2]| {
-            let [a, b] = self.rings.from_hole(self.cap.rings(), hole);
+            let [a, b] = self.rings.out_of_hole(self.cap.rings(), hole);
             jump(&self.eval(s, hole[0], hole[1]), &self.rings.eval(s, a, b))
         };
         let edges = |t: f64| [[1.0, t], [t, 1.0]];
