@@ -9,7 +9,11 @@ mod bench;
 mod caps;
 #[cfg(feature = "library")]
 mod demo_cage;
+#[cfg(feature = "library")]
+mod document;
 mod feature_cages;
+#[cfg(feature = "library")]
+mod guided;
 mod osd;
 #[cfg(feature = "library")]
 mod pictures;
@@ -36,6 +40,8 @@ enum Chore {
     #[cfg(feature = "library")]
     DemoCage(demo_cage::Arguments),
     FeatureCages(feature_cages::Arguments),
+    #[cfg(feature = "library")]
+    Guided(guided::Arguments),
     Osd(osd::Arguments),
     #[cfg(feature = "library")]
     Pictures(pictures::Arguments),
@@ -64,6 +70,8 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
         #[cfg(feature = "library")]
         Chore::DemoCage(arguments) => demo_cage::run(arguments),
         Chore::FeatureCages(arguments) => feature_cages::run(arguments),
+        #[cfg(feature = "library")]
+        Chore::Guided(arguments) => guided::run(arguments),
         Chore::Osd(arguments) => osd::run(arguments),
         #[cfg(feature = "library")]
         Chore::Pictures(arguments) => pictures::run(arguments),

@@ -15,11 +15,12 @@ use evenlight::analyse::curvature::{
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::cap::CapKind;
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{SchemeKind, Surface};
+use evenlight::{SchemeKind, Surface, SurfaceOptions};
 
+use crate::cap::{self, CapArg};
 use crate::error::Failure;
-use crate::input::{self, Source};
-use crate::options::{CapArg, RulesArg, scheme_parser};
+use crate::input::{self, CageArg, Source};
+use crate::options::{BoundaryArg, RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
 use crate::q::QArg;
@@ -29,8 +30,8 @@ use record::Document;
 /// Arguments of `evenlight analyze`.
 #[derive(Args, Debug)]
 pub struct AnalyzeArgs {
-    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
-    cage: Source,
+    #[command(flatten)]
+    cage: CageArg,
 
     /// Schemes to compare
     #[arg(long, value_delimiter = ',', default_value = "cc,qas4", value_parser = scheme_parser())]
@@ -40,10 +41,13 @@ pub struct AnalyzeArgs {
     rules: RulesArg,
 
     #[command(flatten)]
+    boundary: BoundaryArg,
+
+    #[command(flatten)]
     q: QArg,
 
-    /// Number of rings around every extraordinary point, 1 to 100 (0 with --cap); ring k reaches to 2^-k of a
-    /// sector
+    /// Number of rings around every extraordinary point, 1 to 100 (0 with --cap); ring k reaches to
+    /// 2^-k of a sector (at contraction cc)
     #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=100))]
     rings: u8,
 
@@ -91,21 +95,24 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     if cap.is_none() && args.rings == 0 {
         return Err(Failure::Usage("--rings 0 is for surfaces with caps: add --cap".to_owned()));
     }
-    let edits = args.q.read(&args.cage, &args.schemes)?;
+    let edits = args.q.read(&args.cage.source, &args.schemes)?;
     let cage = input::read_cage(&args.cage)?;
     let progress = Progress::new(args.schemes.len(), quiet);
     let mut analyses = Vec::new();
     for &scheme in &args.schemes {
-        let options = args.rules.options_among(&args.schemes, scheme);
+        let options = SurfaceOptions {
+            boundary: args.boundary.rule(),
+            ..args.rules.options_among(&args.schemes, scheme)
+        };
         progress.stage(format!("Analysing {}", scheme.name()));
-        let mut surface = input::build(Arc::clone(&cage), options, &args.cage)?;
+        let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;
         let mut analysis = Analysis::of(surface, args.rings.into());
-        analysis.close(cap, args.rings.into(), &args.cage)?;
+        analysis.close(cap, args.rings.into(), &args.cage.source)?;
         analyses.push(analysis);
         progress.step();
     }
-    input::report_omitted(&analyses[0].surface, &args.cage)?;
+    input::report_omitted(&analyses[0].surface, &args.cage.source)?;
     if args.json {
         args.output.write_json(&Document::new(&analyses, args.rings.into()))
     } else {
@@ -137,7 +144,7 @@ impl Analysis {
         rings: usize,
         source: &Source,
     ) -> Result<(), Failure> {
-        input::close(&mut self.surface, kind, rings, source)?;
+        cap::close(&mut self.surface, kind, rings, source)?;
         self.caps = cap_report(&self.surface);
         Ok(())
     }

@@ -6,19 +6,19 @@ use clap::{Args, ValueEnum};
 use evenlight::Mesh;
 use evenlight::io::load::Format;
 use evenlight::io::ply::Encoding;
-use evenlight::io::{obj, ply};
+use evenlight::io::{obj, ply, usd};
 
 use crate::error::{Failure, warn};
-use crate::input::{self, Source};
+use crate::input::{self, CageArg};
 use crate::output::Target;
 
-/// Arguments of `evenlight convert`.
+/// Arguments of `evenlight convert`. The cage need not be fit for a surface.
 #[derive(Args, Debug)]
 pub struct ConvertArgs {
-    /// The cage to read: .obj or .ply, or `-` for stdin; it need not be fit for a surface
-    cage: Source,
+    #[command(flatten)]
+    cage: CageArg,
 
-    /// The file to write: .obj or .ply, or `-` for stdout
+    /// The file to write: .obj, .ply or .usda, or `-` for stdout
     output: Target,
 
     /// Format of the output, if the file's extension does not tell
@@ -37,6 +37,8 @@ pub enum CageFormat {
     Obj,
     /// PLY
     Ply,
+    /// USD as text
+    Usda,
 }
 
 impl From<CageFormat> for Format {
@@ -44,6 +46,7 @@ impl From<CageFormat> for Format {
         match format {
             CageFormat::Obj => Self::Obj,
             CageFormat::Ply => Self::Ply,
+            CageFormat::Usda => Self::Usda,
         }
     }
 }
@@ -53,7 +56,7 @@ pub fn run(args: &ConvertArgs) -> Result<(), Failure> {
     let format = Format::from(args.output.format(args.format)?);
     let loaded = input::load(&args.cage)?;
     for notice in &loaded.notices {
-        warn(format_args!("{}: {notice}", args.cage));
+        warn(format_args!("{}: {notice}", args.cage.source));
     }
     write(&loaded.mesh, format, args.ascii, &args.output)
 }
@@ -67,6 +70,7 @@ pub fn write(mesh: &Mesh, format: Format, ascii: bool, target: &Target) -> Resul
             let write = |mut out: &mut dyn io::Write| ply::write(mesh, encoding, &mut out);
             (ply::omitted(mesh), target.write(write))
         }
+        Format::Usda => (usd::omitted(mesh), target.write(|mut out| usd::write(mesh, &mut out))),
     };
     written?;
     omitted.iter().for_each(|sentence| warn(format_args!("{target}: {sentence}")));

@@ -11,9 +11,10 @@ use clap::Args;
 use evenlight::{FaceId, QuadId, Surface, SurfacePoint};
 use rayon::prelude::*;
 
+use crate::cap::CapRingsArg;
 use crate::error::Failure;
-use crate::input::{self, Source};
-use crate::options::{CapRingsArg, SurfaceArgs};
+use crate::input::{self, Source, WHY_OMITTED};
+use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
 
@@ -54,9 +55,9 @@ const BATCH: usize = 1 << 14;
 pub fn run(args: &EvalArgs, quiet: bool) -> Result<(), Failure> {
     let SurfaceArgs { cage, q, .. } = &args.surface;
     let q = q.file.iter().map(|file| ("--q", file));
-    let sources = [("cage", cage), ("points", &args.points)];
+    let sources = [("cage", &cage.source), ("points", &args.points)];
     input::refuse_shared_stdin(&sources.into_iter().chain(q).collect::<Vec<_>>())?;
-    let surface = input::read_closed_surface(&args.surface, args.caps.cap, args.caps.rings)?;
+    let surface = args.caps.read(&args.surface)?;
     let text = args.points.read_text()?;
     evaluate(&surface, &args.points, &text, &args.output, quiet)
 }
@@ -208,10 +209,7 @@ impl<'a> Row<'a> {
         let size = faces.corners(self.face).len();
         let corner = corner_of(self.face, size, self.corner).map_err(fault)?;
         if surface.is_omitted(self.face) {
-            return Err(fault(format!(
-                "face {} is left out: faces that touch a boundary have no surface",
-                self.face.0
-            )));
+            return Err(fault(format!("face {} is left out ({WHY_OMITTED})", self.face.0)));
         }
         Ok(surface.quad(self.face, corner).expect("face and corner were checked"))
     }

@@ -8,12 +8,13 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use evenlight::cap::{CapKind, CapOptions, MAX_VALENCE};
+use clap::Args;
 use evenlight::io::load::{Format, LoadError, Loaded};
+use evenlight::surface::SurfaceError;
 use evenlight::{Cage, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
-use crate::options::{CapArg, SurfaceArgs};
+use crate::options::SurfaceArgs;
 
 /// A place to read from.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,6 +73,25 @@ fn read_stdin() -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// The cage, and which one if there are several in the file.
+#[derive(Args, Clone, Debug)]
+pub struct CageArg {
+    /// The cage, .obj, .ply or .usda: quads and n-gons, counter-clockwise; `-` for stdin
+    #[arg(value_name = "CAGE")]
+    pub source: Source,
+
+    /// The mesh in a USD file with several, as in /World/Cage
+    #[arg(long, value_name = "PATH")]
+    prim: Option<String>,
+}
+
+impl From<Source> for CageArg {
+    /// The only cage in `source`.
+    fn from(source: Source) -> Self {
+        Self { source, prim: None }
+    }
+}
+
 /// Refuses to read two things from stdin, as wrong usage.
 pub fn refuse_shared_stdin(sources: &[(&str, &Source)]) -> Result<(), Failure> {
     let from_stdin = sources.iter().filter(|(_, source)| **source == Source::Stdin);
@@ -84,62 +104,38 @@ pub fn refuse_shared_stdin(sources: &[(&str, &Source)]) -> Result<(), Failure> {
 
 /// The surface that `args` ask for; what is ignored or left out is said on stderr.
 pub fn read_surface(args: &SurfaceArgs) -> Result<Surface, Failure> {
-    let edits = args.q.read(&args.cage, &[args.scheme])?;
-    let mut surface = build(read_cage(&args.cage)?, args.options(), &args.cage)?;
-    report_omitted(&surface, &args.cage)?;
+    let source = &args.cage.source;
+    let edits = args.q.read(source, &[args.scheme])?;
+    let mut surface = build(read_cage(&args.cage)?, args.options(), source)?;
+    report_omitted(&surface, source)?;
     edits.apply(&mut surface)?;
     Ok(surface)
 }
 
-/// The same, with caps behind `rings` rings if they are asked for.
-pub fn read_closed_surface(args: &SurfaceArgs, cap: CapArg, rings: u8) -> Result<Surface, Failure> {
-    let kind = cap.kind(&[args.scheme])?;
-    let mut surface = read_surface(args)?;
-    close(&mut surface, kind, rings.into(), &args.cage)?;
-    Ok(surface)
-}
-
-/// Closes a surface by caps of some kind behind `rings` rings; points that have none are said on
-/// stderr.
-pub fn close(
-    surface: &mut Surface,
-    kind: Option<CapKind>,
-    rings: usize,
-    source: &Source,
-) -> Result<(), Failure> {
-    let options = kind.map(|kind| CapOptions { rings, kind });
-    surface.set_caps(options).map_err(|error| Failure::Usage(format!("--cap: {error}")))?;
-    let points = surface.points_without_cap();
-    if !points.is_empty() {
-        let all = surface.extraordinary_points().len();
-        warn(format_args!(
-            "{source}: {} of {all} extraordinary points have no cap, but rings without end: there \
-             are caps for valences 3 to {MAX_VALENCE}",
-            points.len()
-        ));
-    }
-    Ok(())
-}
-
-/// The cage in `source`; what is ignored is said on stderr.
-pub fn read_cage(source: &Source) -> Result<Arc<Cage>, Failure> {
+/// The cage that `arg` names; what is ignored is said on stderr.
+pub fn read_cage(arg: &CageArg) -> Result<Arc<Cage>, Failure> {
+    let source = &arg.source;
     let refused = |error: LoadError| Failure::Unusable(format!("{source}: {error}"));
-    let (cage, notices) = load(source)?.check().map_err(refused)?;
+    let (cage, notices) = load(arg)?.check().map_err(refused)?;
     for notice in notices {
         warn(format_args!("{source}: {notice}"));
     }
     Ok(Arc::new(cage))
 }
 
-/// The mesh in `source`, not checked.
-pub fn load(source: &Source) -> Result<Loaded, Failure> {
-    read_mesh(source)?.map_err(|error| Failure::Unusable(format!("{source}: {error}")))
+/// The mesh that `arg` names, not checked.
+pub fn load(arg: &CageArg) -> Result<Loaded, Failure> {
+    read_mesh(arg)?.map_err(|error| Failure::Unusable(format!("{}: {error}", arg.source)))
 }
 
-/// The mesh in `source`, not checked, or why its bytes are none.
-pub fn read_mesh(source: &Source) -> Result<Result<Loaded, LoadError>, Failure> {
-    let bytes = source.read()?;
-    Ok(source.format().unwrap_or_else(|| Format::of_content(&bytes)).read(&bytes))
+/// The mesh that `arg` names, not checked, or why the bytes are none.
+pub fn read_mesh(arg: &CageArg) -> Result<Result<Loaded, LoadError>, Failure> {
+    let bytes = arg.source.read()?;
+    let format = arg.source.format().unwrap_or_else(|| Format::of_content(&bytes));
+    if arg.prim.is_some() && format != Format::Usda {
+        return Err(Failure::Usage(format!("{}: --prim is for USD files only", arg.source)));
+    }
+    Ok(format.read(&bytes, arg.prim.as_deref()))
 }
 
 /// The surface over `cage`, which was read from `source`.
@@ -148,7 +144,10 @@ pub fn build(
     options: SurfaceOptions,
     source: &Source,
 ) -> Result<Surface, Failure> {
-    Surface::build(cage, options).map_err(|error| Failure::Unusable(format!("{source}: {error}")))
+    Surface::build(cage, options).map_err(|error| match error {
+        SurfaceError::Contraction(error) => Failure::Usage(error.to_string()),
+        error => Failure::Unusable(format!("{source}: {error}")),
+    })
 }
 
 /// Says on stderr which faces have no surface.
@@ -161,7 +160,7 @@ pub fn report_omitted(surface: &Surface, source: &Source) -> Result<(), Failure>
     match surface.omitted_faces().len() {
         0 => Ok(()),
         omitted if omitted == faces => Err(Failure::Unusable(format!(
-            "{source}: all {faces} faces touch a boundary and are left out: no surface remains"
+            "{source}: all {faces} faces are left out ({WHY_OMITTED}): no surface remains"
         ))),
         omitted => {
             warn(format_args!("{source}: {}", omitted_text(omitted, faces)));
@@ -170,7 +169,10 @@ pub fn report_omitted(surface: &Surface, source: &Source) -> Result<(), Failure>
     }
 }
 
+/// Which faces have no surface.
+pub const WHY_OMITTED: &str = "holes, or at the boundary under the rule none";
+
 /// The sentence on faces without a surface.
 pub fn omitted_text(omitted: usize, faces: usize) -> String {
-    format!("{omitted} of {faces} faces touch a boundary and are left out")
+    format!("{omitted} of {faces} faces are left out ({WHY_OMITTED})")
 }

@@ -3,7 +3,7 @@
 //! Every subcommand is one file and one short story: arguments, library, file.
 //!
 //! ```text
-//! check      is the cage fit, and what is in it     convert   cages: .obj .ply
+//! check      is the cage fit, and what is in it     convert   cages: .obj .ply .usda
 //! mesh       triangles: .obj .ply .stl
 //! patches    BB patches: .bv .json                  eval      points, derivatives, curvature
 //! render     pictures: .png                         analyze   fairness in numbers
@@ -12,6 +12,7 @@
 //! ```
 
 mod analyze;
+mod cap;
 mod check;
 mod convert;
 mod demo;
@@ -61,7 +62,7 @@ enum Command {
     Demo(demo::DemoArgs),
     /// Whether a cage can be used, and what is in it
     Check(check::CheckArgs),
-    /// A cage from one kind of file to another: .obj, .ply
+    /// A cage from one kind of file to another: .obj, .ply, .usda
     Convert(convert::ConvertArgs),
     /// The surface as Bernstein-Bezier patches: BezierView .bv or .json
     Patches(patches::PatchesArgs),

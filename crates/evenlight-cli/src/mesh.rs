@@ -5,9 +5,9 @@ use evenlight::Surface;
 use evenlight::io::{obj_out, ply_out, stl};
 use evenlight::tessellate::{TriangleMesh, tessellate};
 
+use crate::cap::CapRingsArg;
 use crate::error::Failure;
-use crate::input;
-use crate::options::{CapRingsArg, SurfaceArgs};
+use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
 
@@ -50,7 +50,7 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let format = args.output.format(args.format)?;
     let progress = Progress::new(3, quiet);
     progress.stage("Building the surface");
-    let surface = input::read_closed_surface(&args.surface, args.caps.cap, args.caps.rings)?;
+    let surface = args.caps.read(&args.surface)?;
     progress.step();
     progress.stage("Evaluating vertices");
     let mesh = triangles(&surface, args.rate.into())?;

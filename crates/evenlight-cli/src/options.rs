@@ -4,11 +4,10 @@ use std::ops::RangeInclusive;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use evenlight::cap::{CapError, CapKind};
+use evenlight::mesh::BoundaryRule;
 use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
 
-use crate::error::Failure;
-use crate::input::Source;
+use crate::input::CageArg;
 use crate::q::QArg;
 
 /// Options that stand before or after any subcommand.
@@ -27,8 +26,8 @@ pub struct Global {
 /// The cage and the rules that make a surface of it.
 #[derive(Args, Clone, Debug)]
 pub struct SurfaceArgs {
-    /// The cage, .obj or .ply: quads and n-gons, counter-clockwise; `-` for stdin
-    pub cage: Source,
+    #[command(flatten)]
+    pub cage: CageArg,
 
     /// Subdivision scheme; what it is like around an extraordinary point of valence n
     #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
@@ -38,62 +37,41 @@ pub struct SurfaceArgs {
     pub rules: RulesArg,
 
     #[command(flatten)]
+    pub boundary: BoundaryArg,
+
+    #[command(flatten)]
     pub q: QArg,
 }
 
-/// What closes the holes behind rings.
+/// What happens at the boundary.
 #[derive(Args, Clone, Copy, Debug)]
-pub struct CapArg {
-    /// Close the hole behind the last of the --rings around every extraordinary point by
-    /// finitely many patches, so that the surface has no end of rings
-    #[arg(long, value_enum, default_value_t = CapChoice::None)]
-    pub cap: CapChoice,
+pub struct BoundaryArg {
+    /// The rule at the boundary of an open cage [default: what the file says, or else
+    /// edge-and-corner]
+    #[arg(long, value_enum, value_name = "RULE")]
+    pub boundary: Option<Boundary>,
 }
 
-/// The caps by their names.
+/// The rules at the boundary by their names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum CapChoice {
-    /// Rings without end
+pub enum Boundary {
+    /// Faces that touch the boundary have no surface
     None,
-    /// What suits the scheme: bi6 for guided6, bi4 for guided3 and guided4, else bi5
-    Auto,
-    /// Bi-3, 3 x 3 patches per sector; tangent planes across lines agree to small angles only
-    Bi3,
-    /// Bi-4, 2 x 2 patches per sector
-    Bi4,
-    /// Bi-5, 2 x 2 patches per sector
-    Bi5,
-    /// Bi-6, one patch per sector
-    Bi6,
+    /// The boundary is a smooth curve, also at vertices of a single face
+    EdgeOnly,
+    /// The boundary is a smooth curve through the vertices of a single face
+    EdgeAndCorner,
 }
 
-impl CapArg {
-    /// The kind of caps, if there are to be any; checked against the schemes.
-    pub fn kind(self, schemes: &[SchemeKind]) -> Result<Option<CapKind>, Failure> {
-        let kind = match self.cap {
-            CapChoice::None => return Ok(None),
-            CapChoice::Auto => CapKind::Auto,
-            CapChoice::Bi3 => CapKind::Bi3,
-            CapChoice::Bi4 => CapKind::Bi4,
-            CapChoice::Bi5 => CapKind::Bi5,
-            CapChoice::Bi6 => CapKind::Bi6,
-        };
-        let checked: Result<(), CapError> =
-            schemes.iter().try_for_each(|&scheme| kind.check(scheme));
-        checked.map_err(|error| Failure::Usage(format!("--cap: {error}")))?;
-        Ok(Some(kind))
+impl BoundaryArg {
+    /// The rule in the library's terms.
+    pub fn rule(self) -> Option<BoundaryRule> {
+        self.boundary.map(|boundary| match boundary {
+            Boundary::None => BoundaryRule::None,
+            Boundary::EdgeOnly => BoundaryRule::EdgeOnly,
+            Boundary::EdgeAndCorner => BoundaryRule::EdgeAndCorner,
+        })
     }
-}
-
-/// Where caps are, for commands to which rings are nothing else.
-#[derive(Args, Clone, Copy, Debug)]
-pub struct CapRingsArg {
-    #[command(flatten)]
-    pub cap: CapArg,
-
-    /// Number of rings in front of caps, 0 to 48
-    #[arg(long, value_name = "K", default_value_t = 6, requires = "cap", value_parser = clap::value_parser!(u8).range(0..=48))]
-    pub rings: u8,
 }
 
 /// Which rules the scheme takes.
@@ -112,7 +90,12 @@ pub struct RulesArg {
 impl RulesArg {
     /// How a surface of the only scheme is built.
     pub fn options(&self, scheme: SchemeKind) -> SurfaceOptions {
-        SurfaceOptions { scheme, rules: self.rules.into(), contraction: self.contraction }
+        SurfaceOptions {
+            scheme,
+            rules: self.rules.into(),
+            contraction: self.contraction,
+            ..SurfaceOptions::default()
+        }
     }
 
     /// How a surface of one of several schemes is built: those with one contraction keep it.
@@ -129,7 +112,7 @@ impl RulesArg {
 impl SurfaceArgs {
     /// Scheme and rules in the library's terms.
     pub fn options(&self) -> SurfaceOptions {
-        self.rules.options(self.scheme)
+        SurfaceOptions { boundary: self.boundary.rule(), ..self.rules.options(self.scheme) }
     }
 }
 

@@ -8,9 +8,9 @@ use evenlight::io::bv;
 use evenlight::surface::{PlacedPatch, Role};
 use serde::{Serialize, Serializer};
 
+use crate::cap::CapArg;
 use crate::error::Failure;
-use crate::input;
-use crate::options::{CapArg, SurfaceArgs, rules_name};
+use crate::options::{SurfaceArgs, rules_name};
 use crate::output::Target;
 use crate::progress::Progress;
 
@@ -29,6 +29,7 @@ pub struct PatchesArgs {
     format: Option<PatchFormat>,
 
     /// Number of rings around every extraordinary point; ring k reaches to 2^-k of a sector
+    /// (at contraction cc)
     #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=48))]
     rings: u8,
 
@@ -50,7 +51,7 @@ pub fn run(args: &PatchesArgs, quiet: bool) -> Result<(), Failure> {
     let format = args.output.format(args.format)?;
     let progress = Progress::new(2, quiet);
     progress.stage("Building the surface");
-    let surface = input::read_closed_surface(&args.surface, args.cap, args.rings)?;
+    let surface = args.cap.read(&args.surface, args.rings)?;
     progress.step();
     progress.stage("Writing patches");
     write(&surface, args.rings.into(), format, &args.output)

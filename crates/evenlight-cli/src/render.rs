@@ -6,9 +6,10 @@ use clap::{Args, ValueEnum};
 use evenlight::picture::{self, MAX_SIDE, Picture, RenderOptions, View};
 use evenlight::{SchemeKind, Surface, VertexId};
 
+use crate::cap::{self, CapRingsArg};
 use crate::error::Failure;
 use crate::input;
-use crate::options::{CapRingsArg, SurfaceArgs, parse_pair, parse_point, scheme_parser};
+use crate::options::{SurfaceArgs, parse_pair, parse_point, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
 
@@ -177,17 +178,18 @@ pub fn view_at(surface: &Surface, vertex: VertexId) -> Option<View> {
 
 /// The surfaces to show, at least one.
 fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
-    let SurfaceArgs { cage: source, scheme, q, .. } = &args.surface;
+    let SurfaceArgs { cage, scheme, q, .. } = &args.surface;
+    let source = &cage.source;
     let single = [*scheme];
     let schemes = if args.compare.is_empty() { &single[..] } else { &args.compare };
-    let cap = args.caps.cap.kind(schemes)?;
+    let kind = args.caps.cap.kind(schemes)?;
     let edits = q.read(source, schemes)?;
-    let cage = input::read_cage(source)?;
+    let cage = input::read_cage(cage)?;
     let build = |&scheme| -> Result<Surface, Failure> {
         let options = args.surface.rules.options_among(schemes, scheme);
         let mut surface = input::build(Arc::clone(&cage), options, source)?;
         edits.apply(&mut surface)?;
-        input::close(&mut surface, cap, args.caps.rings.into(), source)?;
+        cap::close(&mut surface, kind, args.caps.rings.into(), source)?;
         Ok(surface)
     };
     let surfaces = schemes.iter().map(build).collect::<Result<Vec<_>, _>>()?;

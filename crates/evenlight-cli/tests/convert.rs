@@ -16,7 +16,7 @@ fn a_cage_comes_back_from_every_format_as_it_was() {
         let original = cage(name);
         let obj = path("a.obj");
         assert_eq!(stdout(&run(&["convert", arg(&original), arg(&obj)])), "");
-        for (other, flags) in [("a.ply", &[][..]), ("b.ply", &["--ascii"])] {
+        for (other, flags) in [("a.ply", &[][..]), ("b.ply", &["--ascii"]), ("c.usda", &[])] {
             let (other, back) = (path(other), path("back.obj"));
             stdout(&run(&[&["convert", arg(&obj), arg(&other)], flags].concat()));
             stdout(&run(&["convert", arg(&other), arg(&back)]));
@@ -29,16 +29,18 @@ fn a_cage_comes_back_from_every_format_as_it_was() {
 fn every_command_reads_every_format() {
     let folder = tempfile::tempdir().unwrap();
     let obj = cage(PILLOW);
-    let ply = folder.path().join("pillow.ply");
-    stdout(&run(&["convert", arg(&obj), arg(&ply)]));
-    for command in ["check", "analyze", "q"] {
-        let expected = stdout(&run(&[command, arg(&obj), "--json"]));
-        let found = stdout(&run(&[command, arg(&ply), "--json"]));
-        assert!(!expected.is_empty());
-        assert_eq!(found.replace(arg(&ply), arg(&obj)), expected, "{command}");
+    for name in ["pillow.ply", "pillow.usda"] {
+        let other = folder.path().join(name);
+        stdout(&run(&["convert", arg(&obj), arg(&other)]));
+        for command in ["check", "analyze", "q"] {
+            let expected = stdout(&run(&[command, arg(&obj), "--json"]));
+            let found = stdout(&run(&[command, arg(&other), "--json"]));
+            assert!(!expected.is_empty());
+            assert_eq!(found.replace(arg(&other), arg(&obj)), expected, "{command}");
+        }
+        let mesh = |path| run(&["mesh", arg(path), "-o", "-", "--format", "obj"]);
+        assert_eq!(stdout(&mesh(&other)), stdout(&mesh(&obj)));
     }
-    let mesh = |path| run(&["mesh", arg(path), "-o", "-", "--format", "obj"]);
-    assert_eq!(stdout(&mesh(&ply)), stdout(&mesh(&obj)));
 }
 
 #[test]
@@ -60,8 +62,11 @@ fn what_a_format_cannot_hold_is_said() {
     assert_eq!(code(&output), 0);
     let warning = "warning: stdout: PLY has no place for creases, corners, holes and rules";
     assert!(stderr(&output).starts_with(warning), "{}", stderr(&output));
-    let kept = run_on(&tagged, &["convert", "-", "-", "--format", "obj"]);
-    assert_eq!(stdout(&kept), tagged);
+    for format in ["obj", "usda"] {
+        let kept = stdout(&run_on(&tagged, &["convert", "-", "-", "--format", format]));
+        let back = run_on(&kept, &["convert", "-", "-", "--format", "obj"]);
+        assert_eq!(stdout(&back), tagged);
+    }
 }
 
 #[test]
@@ -75,5 +80,22 @@ fn faults_are_told_in_the_terms_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let output = run(&["convert", arg(&cage(CONE)), arg(&folder.path().join("a.stl"))]);
     assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains("it can be .obj, .ply"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("it can be .obj, .ply, .usda"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_mesh_of_several_in_a_usd_file_is_chosen_by_its_path() {
+    let one = stdout(&run_on(CUBE, &["convert", "-", "-", "--format", "usda"]));
+    let (_, mesh) = one.split_once("\ndef").unwrap();
+    let two = one.clone() + "\ndef" + &mesh.replace("\"Cage\"", "\"Other\"");
+    let (_folder, path) = common::file("two.usda", &two);
+    let output = run(&["check", arg(&path)]);
+    assert_eq!(code(&output), 1);
+    let expected = "there are 2 meshes (/Cage, /Other): choose one by its path (--prim)";
+    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    let chosen = run(&["convert", "--prim", "/Other", arg(&path), "-", "--format", "obj"]);
+    assert_eq!(stdout(&chosen), CUBE);
+    let output = run_on(CUBE, &["check", "-", "--prim", "/Other"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("--prim is for USD files only"), "{}", stderr(&output));
 }

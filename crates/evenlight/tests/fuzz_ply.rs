@@ -112,7 +112,7 @@ fn case(seed: u64, good: &[Vec<u8>]) -> Vec<u8> {
 
 /// Reads and checks `bytes`; whether they are a cage.
 fn hold_to_the_contract(bytes: &[u8]) -> bool {
-    match Format::Ply.read(bytes).and_then(|loaded| loaded.check()) {
+    match Format::Ply.read(bytes, None).and_then(|loaded| loaded.check()) {
         Ok((cage, notices)) => {
             assert!(notices.iter().all(|notice| !notice.to_string().is_empty()));
             let mesh = Mesh {

@@ -74,7 +74,7 @@ impl Handle {
 impl Subject {
     /// Reads the cage in `source` and analyses its surfaces.
     pub fn new(source: &Source) -> Result<Self, Failure> {
-        let cage = input::read_cage(source)?;
+        let cage = input::read_cage(&source.clone().into())?;
         let analyse = |scheme| -> Result<Analysis, Failure> {
             let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
             let surface = input::build(Arc::clone(&cage), options, source)?;

@@ -102,6 +102,9 @@ pub enum CapError {
         /// The patches along each side of a square of its rings.
         split: usize,
     },
+    /// No caps at points on a boundary or on sharp edges.
+    #[error("points on a boundary or on sharp edges have none")]
+    Fan,
     /// No caps at this valence.
     #[error("there are caps for valences 3 to {MAX_VALENCE} (not 4), not for {valence}")]
     Valence {
@@ -271,6 +274,9 @@ pub(crate) struct ValenceCap {
 
 impl ValenceCap {
     pub(crate) fn new(rules: &ValenceRules, kind: CapKind) -> Result<Self, CapError> {
+        if rules.is_fan() {
+            return Err(CapError::Fan);
+        }
         let (scheme, rules, subdominant) = (rules.kind(), rules.rules(), rules.subdominant());
         let valence = rules.valence;
         if valence == 4 || !(3..=MAX_VALENCE).contains(&valence) {

@@ -12,7 +12,7 @@
 use std::fmt;
 
 use super::obj::{self, UnknownTag};
-use super::ply;
+use super::{ply, usd};
 use crate::mesh::{Cage, CheckError, FaceId, LibraryNumbers, Mesh, Names, VertexId, Warning};
 
 /// The kinds of files that hold cages.
@@ -22,6 +22,8 @@ pub enum Format {
     Obj,
     /// PLY, ascii or binary.
     Ply,
+    /// USD as text.
+    Usda,
 }
 
 impl Format {
@@ -30,6 +32,8 @@ impl Format {
         match extension.to_ascii_lowercase().as_str() {
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
+            // The reader says what to do with binary files.
+            "usda" | "usd" | "usdc" | "usdz" => Some(Self::Usda),
             _ => None,
         }
     }
@@ -38,11 +42,12 @@ impl Format {
     pub fn of_content(bytes: &[u8]) -> Self {
         match bytes {
             [b'p', b'l', b'y', b'\n' | b'\r' | b' ', ..] => Self::Ply,
+            _ if bytes.starts_with(b"#usda") || bytes.starts_with(b"PXR-USDC") => Self::Usda,
             _ => Self::Obj,
         }
     }
 
-    /// Reads `bytes` as a file of this kind.
+    /// Reads `bytes` as a file of this kind; of USD the mesh at the path `prim`, or the only one.
     ///
     /// # Errors
     ///
@@ -52,14 +57,15 @@ impl Format {
     /// use evenlight::io::load::Format;
     ///
     /// let bytes = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    /// let (cage, notices) = Format::of_content(bytes).read(bytes)?.check()?;
+    /// let (cage, notices) = Format::of_content(bytes).read(bytes, None)?.check()?;
     /// assert!(cage.num_faces() == 1 && notices.is_empty());
     /// # Ok::<(), evenlight::io::load::LoadError>(())
     /// ```
-    pub fn read(self, bytes: &[u8]) -> Result<Loaded, LoadError> {
+    pub fn read(self, bytes: &[u8], prim: Option<&str>) -> Result<Loaded, LoadError> {
         Ok(match self {
             Self::Obj => obj::read(bytes)?.into(),
             Self::Ply => ply::read(bytes)?.into(),
+            Self::Usda => usd::read(bytes, prim)?.into(),
         })
     }
 }
@@ -163,6 +169,9 @@ pub enum LoadError {
     /// It is no PLY file.
     #[error(transparent)]
     Ply(#[from] ply::ReadError),
+    /// It is no USD file with a mesh.
+    #[error(transparent)]
+    Usd(#[from] usd::ReadError),
     /// Its mesh cannot be used.
     #[error("{0}")]
     Check(Box<Refusal>),
@@ -178,6 +187,7 @@ impl LoadError {
                 error.faults.iter().map(ToString::to_string).chain(more).collect()
             }
             Self::Ply(error) => vec![error.to_string()],
+            Self::Usd(error) => vec![error.to_string()],
             Self::Check(refusal) => {
                 let faults = refusal.error.errors.iter();
                 faults.map(|fault| fault.describe(&refusal.naming)).collect()
@@ -189,7 +199,7 @@ impl LoadError {
     pub fn notices(&self) -> &[Notice] {
         match self {
             Self::Check(refusal) => &refusal.notices,
-            Self::Obj(_) | Self::Ply(_) => &[],
+            Self::Obj(_) | Self::Ply(_) | Self::Usd(_) => &[],
         }
     }
 }

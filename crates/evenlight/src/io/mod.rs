@@ -9,3 +9,4 @@ pub mod obj_out;
 pub mod ply;
 pub mod ply_out;
 pub mod stl;
+pub mod usd;

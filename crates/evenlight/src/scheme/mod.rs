@@ -6,6 +6,7 @@
 mod catmull_clark;
 mod contraction;
 mod evolving_guide;
+mod fan;
 mod guided;
 mod quadratic_attraction;
 mod rules;
@@ -14,6 +15,7 @@ mod subdominant;
 mod tables;
 
 pub use contraction::{Contraction, ContractionError, Variant};
+pub(crate) use fan::{FanLimit, rules as fan_rules};
 pub(crate) use guided::{guide_monomials, sampled_guide};
 pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;

@@ -11,8 +11,8 @@ use crate::rings::{Rings, ValenceRules};
 #[derive(Debug)]
 pub(super) struct Caps {
     pub(super) options: CapOptions,
-    /// Per point the rules, shared among those alike, and the cap; `None` where rings go on for ever.
-    around: Vec<Option<(Arc<ValenceCap>, OnceLock<Cap>)>>,
+    /// Per point the rules, shared among those alike, and the cap; or why rings go on for ever.
+    around: Vec<Result<(Arc<ValenceCap>, OnceLock<Cap>), CapError>>,
 }
 
 impl Caps {
@@ -33,21 +33,21 @@ impl Caps {
         let mut rules = Vec::new();
         for result in made {
             rules.push(match result {
-                Ok(rules) => Some(Arc::new(rules)),
-                Err(CapError::Valence { .. }) => None,
+                Ok(rules) => Ok(Arc::new(rules)),
+                Err(error @ (CapError::Valence { .. } | CapError::Fan)) => Err(error),
                 Err(error) => return Err(error),
             });
         }
         let around = rings.iter().map(|rings| {
-            let rules = rules[kind_of(rings, &kinds).expect("all kinds are listed")].clone()?;
-            Some((rules, OnceLock::new()))
+            let rules = rules[kind_of(rings, &kinds).expect("all kinds are listed")].clone();
+            rules.map(|rules| (rules, OnceLock::new()))
         });
         Ok(Self { options, around: around.collect() })
     }
 
     /// Forgets the cap of a point whose rings have changed.
     pub(super) fn forget(&mut self, point: usize) {
-        if let Some((_, cap)) = &mut self.around[point] {
+        if let Ok((_, cap)) = &mut self.around[point] {
             *cap = OnceLock::new();
         }
     }
@@ -58,8 +58,8 @@ impl Surface {
     /// rings without end.
     ///
     /// A surface that is closed like this has derivatives and curvature at extraordinary points too.
-    /// Around points without caps (of valence 2 or above [`MAX_VALENCE`](crate::cap::MAX_VALENCE))
-    /// rings go on for ever. Takes some hundredths of a second per valence; caps themselves are made
+    /// Around points without caps (of valence 2 or above [`MAX_VALENCE`](crate::cap::MAX_VALENCE), and
+    /// those on a boundary or sharp edges) rings go on for ever. Takes some hundredths of a second per valence; caps themselves are made
     /// when first asked for.
     ///
     /// # Errors
@@ -78,7 +78,7 @@ impl Surface {
     /// The cap around an extraordinary point, by its index; `None` if rings go on for ever there.
     pub fn cap(&self, point: usize) -> Option<&Cap> {
         let caps = self.caps.as_ref()?;
-        let (rules, cap) = caps.around[point].as_ref()?;
+        let (rules, cap) = caps.around[point].as_ref().ok()?;
         let make = || Cap::with_rules(&self.rings[point], caps.options.rings, rules);
         Some(cap.get_or_init(make))
     }
@@ -86,6 +86,11 @@ impl Surface {
     /// The extraordinary points of a closed surface that have no cap, by their indices.
     pub fn points_without_cap(&self) -> Vec<usize> {
         let Some(caps) = &self.caps else { return Vec::new() };
-        (0..caps.around.len()).filter(|&point| caps.around[point].is_none()).collect()
+        (0..caps.around.len()).filter(|&point| caps.around[point].is_err()).collect()
+    }
+
+    /// Why an extraordinary point of a closed surface, by its index, has no cap; `None` if it has.
+    pub fn why_no_cap(&self, point: usize) -> Option<&CapError> {
+        self.caps.as_ref()?.around[point].as_ref().err()
     }
 }

@@ -18,21 +18,25 @@
 mod build;
 mod caps;
 mod place;
+mod primvar;
+mod rule;
 
 pub use build::SurfaceError;
 pub use place::{PatchPlace, PlacedPatch, Role};
+pub use primvar::PrimvarJet;
+pub use rule::{PointRule, Reason};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::mesh::isolation::{CORNERS, Piece, Plan};
-use crate::mesh::{Cage, FaceId, VertexId};
+use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, VertexId};
 use crate::net::Quadratic;
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add_scaled};
 use crate::rings::Rings;
 use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
-use build::{describe, gather, refined_positions, rules_by_valence};
+use build::{describe, refined_positions, rings, rules_of_points};
 use caps::Caps;
 use place::{
     RingPatch, Source, Square, from_sector, quadrant, ring_domain, to_sector, turned_patch,
@@ -51,6 +55,8 @@ pub struct SurfaceOptions {
     pub rules: RuleSet,
     /// How fast its rings contract.
     pub contraction: Contraction,
+    /// The rule at the boundary; `None` for that of the cage's tags.
+    pub boundary: Option<BoundaryRule>,
 }
 
 impl SurfaceOptions {
@@ -66,17 +72,19 @@ pub struct Surface {
     cage: Arc<Cage>,
     options: SurfaceOptions,
     plan: Plan,
-    /// The positions of the refined levels 1 and 2.
+    /// The positions of the refined levels.
     refined: Vec<Vec<Point>>,
     /// The rings around every extraordinary point.
     rings: Vec<Rings>,
     points: Vec<ExtraordinaryPoint>,
     /// What closes the holes behind some rings.
     caps: Option<Caps>,
+    /// The primvars, built when first asked for.
+    channels: Vec<OnceLock<primvar::Channel>>,
 }
 
-/// An extraordinary point of the surface: an interior vertex of valence other than 4, or the
-/// centre of an n-gon.
+/// An extraordinary point of the surface: an interior vertex of valence other than 4, the centre of
+/// an n-gon, or a vertex on sharp edges or the boundary that is not regular there.
 #[derive(Clone, Debug)]
 pub struct ExtraordinaryPoint {
     /// The vertex of the cage; `None` for the centre of an n-gon.
@@ -85,7 +93,13 @@ pub struct ExtraordinaryPoint {
     pub face: Option<FaceId>,
     /// The number of edges that meet here.
     pub valence: usize,
-    /// The level of Catmull-Clark refinement (0, 1 or 2) at which it is isolated.
+    /// The faces that it concerns: all around, or those between two sharp edges. A vertex with
+    /// sharp edges is as many points as it has irregular fans.
+    pub fan: Fan,
+    /// The rule that it gets, and why.
+    pub rule: PointRule,
+    /// The level of Catmull-Clark refinement at which it is isolated: 0 to 2, more where something
+    /// is semi-sharp.
     pub level: usize,
     /// The limit point.
     pub position: Point,
@@ -117,25 +131,24 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::NoRules`] if the scheme has no rules for the valence of some point
-    /// ([`SchemeKind::has_rules`]), [`SurfaceError::Contraction`] if it has no such contraction
+    /// [`SurfaceError::NoRules`] if more than 1024 faces meet at a point; where the scheme has no
+    /// rules, the point gets Catmull-Clark's ([`ExtraordinaryPoint::rule`]).
+    /// [`SurfaceError::Contraction`] if the scheme has no such contraction
     /// ([`SchemeKind::check_contraction`]).
     pub fn build(
         cage: impl Into<Arc<Cage>>,
         options: SurfaceOptions,
     ) -> Result<Self, SurfaceError> {
         let cage = cage.into();
-        let plan = Plan::new(cage.topology());
-        let rules = rules_by_valence(&plan, options)?;
+        let plan = Plan::new(&cage, options.boundary.unwrap_or(cage.tags().boundary));
+        let rules = rules_of_points(&cage, &plan, options)?;
         let refined = refined_positions(&cage, &plan);
-        let rings = (0..plan.points.len())
-            .map(|p| {
-                let cnet = gather(&cage, &plan, &refined, p);
-                Rings::with_rules(&cnet, rules[&plan.points[p].valence].clone(), None)
-            })
-            .collect::<Vec<_>>();
-        let points = rings.iter().enumerate().map(|(p, r)| describe(&plan, p, r)).collect();
-        Ok(Self { cage, options, plan, refined, rings, points, caps: None })
+        let around = |(p, (_, rules)): (usize, &(_, _))| rings(&cage, &plan, &refined, p, rules);
+        let rings: Vec<Rings> = rules.iter().enumerate().map(around).collect();
+        let of_point = |(p, rings)| describe(&plan, p, rules[p].0, rings);
+        let points = rings.iter().enumerate().map(of_point).collect();
+        let channels = primvar::unbuilt(&cage);
+        Ok(Self { cage, options, plan, refined, rings, points, caps: None, channels })
     }
 
     /// The cage.
@@ -173,7 +186,7 @@ impl Surface {
         (FaceId(face as u32), (quad.0 - self.plan.first_quads[face]) as usize)
     }
 
-    /// Whether there is no surface over `face` (so where it touches a boundary).
+    /// Whether there is no surface over `face`: a hole, or at the boundary under the rule "none".
     pub fn is_omitted(&self, face: FaceId) -> bool {
         self.plan.omitted.binary_search(&face).is_ok()
     }
@@ -387,21 +400,24 @@ impl Surface {
         if level == 0 { self.cage.positions() } else { &self.refined[level - 1] }
     }
 
+    fn net_points(&self, net: u32) -> [Point; 16] {
+        let net = &self.plan.nets[net as usize];
+        net.points(self.positions(net.level as usize))
+    }
+
     fn regular_jet(&self, net: u32, [u, v]: [f64; 2]) -> Jet {
-        let net = self.plan.nets[net as usize];
-        let positions = self.positions(net.level as usize);
+        let points = self.net_points(net);
         let (bu, bv) = (cubic_b_spline(u), cubic_b_spline(v));
-        Jet::tensor_product(&bu, &bv, [4, 4], |i, j| positions[net.vertices[4 * i + j].index()])
+        Jet::tensor_product(&bu, &bv, [4, 4], |i, j| points[4 * i + j])
     }
 
     fn regular_patch(&self, net: u32) -> Patch {
-        let net = self.plan.nets[net as usize];
-        let positions = self.positions(net.level as usize);
+        let points = self.net_points(net);
         let coef = |k: usize| {
             let mut sum = [0.0; 3];
-            for (m, v) in net.vertices.iter().enumerate() {
+            for (m, &p) in points.iter().enumerate() {
                 let w = CUBIC_B_SPLINE_TO_BB[k / 4][m / 4] * CUBIC_B_SPLINE_TO_BB[k % 4][m % 4];
-                add_scaled(&mut sum, w, positions[v.index()]);
+                add_scaled(&mut sum, w, p);
             }
             sum
         };
