@@ -7,6 +7,7 @@
 
 mod check;
 mod fault;
+pub mod fix;
 pub mod isolation;
 mod refine;
 mod tags;
