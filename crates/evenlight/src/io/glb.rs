@@ -64,7 +64,12 @@ struct Section {
 /// What is behind each other in the binary part.
 fn sections(mesh: &TriangleMesh) -> [Section; 5] {
     let n = mesh.positions.len();
-    let section = |name, kind, count, width| Section { name, kind, count, len: 4 * width * count };
+    let section = |name, kind, count: usize, width: usize| Section {
+        name,
+        kind,
+        count,
+        len: 4 * width * count,
+    };
     [
         section("POSITION", "VEC3", n, 3),
         section("NORMAL", "VEC3", n, 3),
