@@ -6,8 +6,14 @@
 #[cfg(feature = "library")]
 mod bench;
 #[cfg(feature = "library")]
+mod caps;
+#[cfg(feature = "library")]
 mod demo_cage;
+#[cfg(feature = "library")]
+mod document;
 mod feature_cages;
+#[cfg(feature = "library")]
+mod guided;
 mod osd;
 #[cfg(feature = "library")]
 mod pictures;
@@ -30,8 +36,12 @@ enum Chore {
     #[cfg(feature = "library")]
     Bench(bench::Arguments),
     #[cfg(feature = "library")]
+    Caps(caps::Arguments),
+    #[cfg(feature = "library")]
     DemoCage(demo_cage::Arguments),
     FeatureCages(feature_cages::Arguments),
+    #[cfg(feature = "library")]
+    Guided(guided::Arguments),
     Osd(osd::Arguments),
     #[cfg(feature = "library")]
     Pictures(pictures::Arguments),
@@ -56,8 +66,12 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
         #[cfg(feature = "library")]
         Chore::Bench(arguments) => bench::run(arguments),
         #[cfg(feature = "library")]
+        Chore::Caps(arguments) => caps::run(arguments),
+        #[cfg(feature = "library")]
         Chore::DemoCage(arguments) => demo_cage::run(arguments),
         Chore::FeatureCages(arguments) => feature_cages::run(arguments),
+        #[cfg(feature = "library")]
+        Chore::Guided(arguments) => guided::run(arguments),
         Chore::Osd(arguments) => osd::run(arguments),
         #[cfg(feature = "library")]
         Chore::Pictures(arguments) => pictures::run(arguments),

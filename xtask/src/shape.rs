@@ -34,9 +34,8 @@ pub struct Arguments {
 }
 
 const DOCUMENT: &str = "crates/evenlight/docs/06-shape.md";
-const OBSTACLES: &str = "data/meshes/obstacle";
-const MARKERS: [&str; 2] =
-    ["<!-- written by `cargo xtask shape` -->\n", "<!-- end of what is written -->\n"];
+/// The cages of the obstacle course.
+pub const OBSTACLES: &str = "data/meshes/obstacle";
 
 /// The rings over which ranges and oscillations are measured.
 const RINGS: usize = 12;
@@ -49,42 +48,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if !arguments.cages.is_empty() {
         return arguments.cages.iter().try_for_each(|path| print_rings(path, arguments.rings));
     }
-    let file = crate::workspace(DOCUMENT);
-    let text = std::fs::read_to_string(&file)?;
-    let [head, old, tail] = parts(&text).ok_or(format!("{DOCUMENT} has lost its markers"))?;
-    let new = tables(&measured_obstacles()?)? + &ring_table()?;
-    if !arguments.check {
-        std::fs::write(&file, format!("{head}{new}{tail}"))?;
-        println!("{DOCUMENT}: written");
-        return Ok(());
-    }
-    compare(old, &new)?;
-    println!("{DOCUMENT}: all numbers agree");
-    Ok(())
-}
-
-/// The text up to and with the first marker, between the markers, from the second on.
-fn parts(text: &str) -> Option<[&str; 3]> {
-    let first = text.find(MARKERS[0])? + MARKERS[0].len();
-    let second = first + text[first..].find(MARKERS[1])?;
-    Some([&text[..first], &text[first..second], &text[second..]])
-}
-
-/// Fails unless two texts have the same words, and numbers that agree to three digits.
-fn compare(old: &str, new: &str) -> Result<(), String> {
-    let words =
-        |text: &str| -> Vec<String> { text.split_whitespace().map(str::to_owned).collect() };
-    let (old, new) = (words(old), words(new));
-    let agree = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
-        (Ok(a), Ok(b)) => (a - b).abs() <= 0.005 * a.abs().max(b.abs()) + 0.001,
-        _ => a == b,
-    };
-    let advice = "run `cargo xtask shape` and look at what changed";
-    match old.iter().zip(&new).find(|&pair| !agree(pair)) {
-        Some((old, new)) => Err(format!("{DOCUMENT} says {old}, measured is {new}; {advice}")),
-        None if old.len() != new.len() => Err(format!("{DOCUMENT} has other tables; {advice}")),
-        None => Ok(()),
-    }
+    let tables = tables(&measured_obstacles()?)? + &ring_table()?;
+    crate::document::write_or_check(DOCUMENT, "shape", &tables, arguments.check)
 }
 
 // ------------------------------------------------------------------------ measuring
@@ -142,7 +107,8 @@ impl Row {
     }
 }
 
-fn read(path: &Path) -> Result<Arc<Cage>, Box<dyn Error>> {
+/// The cage of a file.
+pub fn read(path: &Path) -> Result<Arc<Cage>, Box<dyn Error>> {
     let (cage, _) = obj::read_cage(&std::fs::read(path)?)?;
     Ok(Arc::new(cage))
 }
@@ -327,7 +293,7 @@ fn worse(
 }
 
 /// A number with three digits.
-fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     let digits = match x.abs() {
         0.0 => return "0".to_owned(),
         size if !(9.995e-4..9999.5).contains(&size) => return format!("{x:.2e}"),

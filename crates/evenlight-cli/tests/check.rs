@@ -56,11 +56,16 @@ fn centres_of_n_gons_are_listed_on_their_own() {
 #[test]
 fn faces_at_a_boundary_are_counted_and_said_so_on_stderr() {
     let cone = cage(CONE);
-    let output = run(&["check", arg(&cone), "--json"]);
+    let report = json(&run(&["check", arg(&cone), "--json"]));
+    assert_eq!(
+        (&report["omitted_faces"], &report["boundary"]),
+        (&json!(0), &json!("edge-and-corner"))
+    );
+    let output = run(&["check", arg(&cone), "--json", "--boundary", "none"]);
     assert_eq!(code(&output), 0);
     let report = json(&output);
     assert_eq!((&report["omitted_faces"], &report["boundary_edges"]), (&json!(25), &json!(30)));
-    let sentence = "25 of 45 faces touch a boundary and are left out";
+    let sentence = "25 of 45 faces are left out (holes, or at the boundary under the rule none)";
     assert_eq!(report["warnings"], json!([sentence]));
     assert!(stderr(&output).starts_with("warning: ") && stderr(&output).contains(sentence));
 }
@@ -113,7 +118,19 @@ fn a_file_that_is_not_there_is_named() {
 
 #[test]
 fn valences_without_rules_are_a_warning() {
-    // A double pyramid over a polygon with 20 sides.
+    let output = run_on(&text_of_pyramid(), &["check", "-"]);
+    assert_eq!(code(&output), 0);
+    let sentence = "only, cc takes their place: vertex 0 has valence 20, vertex 1 has valence 20";
+    assert!(stderr(&output).contains(sentence));
+    let rule = "vertex 0        valence 20   level 2  cc: no rules of the scheme for this valence";
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains(rule), "{text}");
+    let output = run_on(&text_of_pyramid(), &["mesh", "-", "-o", "-", "--format", "obj"]);
+    assert_eq!(code(&output), 0);
+}
+
+/// A double pyramid over a polygon with 20 sides.
+fn text_of_pyramid() -> String {
     let mut text = "v 0 0 1\nv 0 0 -1\n".to_owned();
     for k in 0..20 {
         let angle = std::f64::consts::TAU * f64::from(k) / 20.0;
@@ -123,20 +140,7 @@ fn valences_without_rules_are_a_warning() {
         let (a, b) = (k + 3, (k + 1) % 20 + 3);
         text += &format!("f 1 {a} {b}\nf 2 {b} {a}\n");
     }
-    let output = run_on(&text, &["check", "-"]);
-    assert_eq!(code(&output), 0);
-    assert!(stderr(&output).contains("only: vertex 0 has valence 20, vertex 1 has valence 20"));
-    let output = run_on(&text, &["mesh", "-", "-o", "-", "--format", "obj"]);
-    assert_eq!((code(&output), output.stdout.len()), (1, 0));
-    assert!(
-        stderr(&output).contains("vertex 0 (number 1 in a file) has valence 20"),
-        "{}",
-        stderr(&output)
-    );
-    assert_eq!(
-        code(&run_on(&text, &["mesh", "-", "-o", "-", "--format", "obj", "--scheme", "cc"])),
-        0
-    );
+    text
 }
 
 /// A cube with its last face flipped, a vertex twice and one in no face.

@@ -50,6 +50,36 @@ fn every_scheme_has_spectra_for_all_its_valences() {
     }
 }
 
+/// Eigenvalues are powers of 1/2 at every valence, as often as at Catmull-Clark's contraction.
+#[test]
+fn guided_schemes_contract_as_they_are_told_and_others_refuse() {
+    let of = |contraction| {
+        let args = ["--scheme", "guided5", "--valence", "3..20", "--contraction", contraction];
+        spectra(&args)
+    };
+    let (usual, half) = (of("cc"), of("half"));
+    for (usual, half) in usual.iter().zip(&half) {
+        assert_eq!(half["injectivity_proved"], true);
+        let moduli = |spectrum: &Value, lambda: f64| -> Vec<f64> {
+            let moduli = spectrum["eigenvalues"].as_array().unwrap().iter();
+            moduli.map(|m| (m.as_f64().unwrap().ln() / lambda.ln()).round()).collect()
+        };
+        let lambda = usual["lambda"].as_f64().unwrap();
+        assert!((half["lambda"].as_f64().unwrap() - 0.5).abs() < 1e-15);
+        assert_eq!(moduli(half, 0.5), moduli(usual, lambda));
+    }
+    let refused = |args: &[&str]| {
+        let output = run(&[&["spectrum"], args].concat());
+        assert_eq!(code(&output), 2);
+        stderr(&output)
+    };
+    assert!(refused(&["--contraction", "half"]).contains("scheme qas4 contracts like"));
+    let message = refused(&["--scheme", "guided5", "--contraction", "0.7"]);
+    assert!(message.contains("between 0.3 and 0.7"), "{message}");
+    let message = refused(&["--scheme", "guided5", "--valence", "33"]);
+    assert!(message.contains("3 and 5 to 32"), "{message}");
+}
+
 #[test]
 fn ranges_include_both_ends_and_skip_4() {
     let valences =

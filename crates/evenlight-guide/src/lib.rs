@@ -3,7 +3,8 @@
 //! Evolving-Guide subdivision, EG [KP23-EG], and Quadratic-Attraction subdivision, QAS [KP23-QAS],
 //! refine the d-net around an extraordinary point by tabulated weights. This crate computes the
 //! weights of any valence from their definition and writes the tables that the library `evenlight`
-//! reads. It is never shipped; `cargo xtask tables` runs it.
+//! reads. `cargo xtask tables` runs it; at run time the library needs it only for guided rules that
+//! are in no table (its feature `derive`).
 //!
 //! # The derivation in one page
 //!

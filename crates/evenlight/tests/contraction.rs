@@ -9,8 +9,13 @@ use std::sync::Arc;
 use common::Random;
 use evenlight::analyse::continuity::continuity;
 use evenlight::net::CNet;
+use evenlight::point::{norm, sub};
 use evenlight::rings::Rings;
 use evenlight::{Cage, Contraction, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight_guide::guided::characteristic::{CharacteristicRing, Square, sigma_of};
+use evenlight_guide::guided::fit::{generating_matrix, guide};
+use evenlight_guide::guided::rings::{self as derivation, Form};
+use evenlight_guide::linear::Matrix;
 
 const GUIDED: [SchemeKind; 4] =
     [SchemeKind::Guided3, SchemeKind::Guided4, SchemeKind::Guided5, SchemeKind::Guided6];
@@ -84,6 +89,40 @@ fn rings_contract_by_lambda() {
     }
 }
 
+/// Two routes to one surface: the library's rules, and the rings of the derivation in 30 digits.
+#[test]
+fn rings_are_those_of_the_derivation() {
+    let forms = [Form::Bi3, Form::Bi4, Form::Bi5, Form::Bi6];
+    for (n, contraction) in [(3, 0.5), (5, 0.5), (6, 0.35), (8, 0.65), (32, 0.5)] {
+        let chi = CharacteristicRing::new(n, sigma_of(n, contraction.into()));
+        let cnet = random_cnet(n);
+        let nodes: Vec<[f64; 3]> =
+            cnet.sectors.iter().flatten().copied().chain([cnet.center]).collect();
+        let net = Matrix::from_fn(nodes.len(), 3, |node, k| nodes[node][k].into());
+        let guide = guide(&generating_matrix(&chi), n, &net);
+        for (scheme, form) in GUIDED.into_iter().zip(forms) {
+            let exact = derivation::Rings::new(&chi, form);
+            let rings = Rings::from_cnet(&cnet, scheme, Contraction::Lambda(contraction)).unwrap();
+            for level in 0..3 {
+                let ring = exact.ring(level, &guide, &net);
+                for (s, square) in [0, n - 1].into_iter().flat_map(|s| [0, 1, 2].map(|k| (s, k))) {
+                    let place = [Square::B, Square::A, Square::C][square];
+                    let table = &ring[s][place as usize];
+                    let patches = form.patches(place, chi.sigma, table);
+                    for (k, patch) in patches.iter().enumerate() {
+                        let found = rings.patch(level, s, square * patches.len() + k);
+                        for (row, p) in found.coefs().iter().enumerate() {
+                            let exact = [0, 1, 2].map(|k| patch[(row, k)].to_f64());
+                            let gap = norm(sub(*p, exact));
+                            assert!(gap < 1e-12, "n = {n}, {}, ring {level}: {gap}", scheme.name());
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// The patch that evaluation chooses has the parameter in its domain, however deep or small.
 #[test]
 fn every_parameter_is_in_the_patch_that_has_it() {
@@ -103,6 +142,39 @@ fn every_parameter_is_in_the_patch_that_has_it() {
         for x in [f64::MIN_POSITIVE, f64::from_bits(1), 1e-300] {
             let point = surface.rings(0).eval(0, x, 0.5 * x);
             assert!(point.mean.is_finite() && point.gauss.is_finite());
+        }
+    }
+}
+
+/// The range of H over ring l shrinks by lambda per ring with bi-6 rings; with the others it has a
+/// limit.
+#[test]
+fn curvature_is_continuous_with_bi_6_rings_and_bounded_with_the_others() {
+    for (n, contraction) in [(3, 0.5), (5, 0.5), (6, 0.4), (8, 0.5), (10, 0.6), (20, 0.5)] {
+        let contraction = Contraction::Lambda(contraction);
+        for scheme in GUIDED {
+            let rings = Rings::from_cnet(&random_cnet(n), scheme, contraction).unwrap();
+            let (_, center) = rings.center_curvature().unwrap();
+            let spread = |ring: i32| {
+                let (h, s) = (rings.sigma().powi(ring), rings.sigma());
+                let radii = [1.0, 0.7, 0.4].map(|t| h * (s + (1.0 - s) * t));
+                let around = (0..n).flat_map(|s| (0..=8).map(move |k| (s, f64::from(k) / 8.0)));
+                let means = around.flat_map(|(s, t)| {
+                    let rings = &rings;
+                    radii.into_iter().flat_map(move |r| {
+                        [[r, t * r], [t * r, r]].map(|[a, b]| rings.eval(s, a, b).mean)
+                    })
+                });
+                means.fold(0.0_f64, |most, mean| most.max((mean - center).abs()))
+            };
+            let name = format!("{} n = {n}, {contraction}", scheme.name());
+            if scheme == SchemeKind::Guided6 {
+                let factor = spread(21) / spread(20);
+                assert!((factor / rings.lambda() - 1.0).abs() < 0.01, "{name}: {factor}");
+            } else {
+                assert!((spread(60) / spread(80) - 1.0).abs() < 1e-3, "{name}");
+                assert!(spread(60) > 1e-9, "{name}");
+            }
         }
     }
 }

@@ -6,7 +6,7 @@
 use evenlight::basis::{
     Eigenfunctions, HomogeneousGuide, MAX_TOTAL_DEGREE, Parity, ScalarJet, multiplicity,
 };
-use evenlight::{RuleSet, SchemeKind};
+use evenlight::{Contraction, RuleSet, SchemeKind};
 use nalgebra::DMatrix;
 
 const VALENCES: [usize; 7] = [3, 5, 6, 7, 8, 9, 10];
@@ -206,43 +206,71 @@ fn assert_c2(before: ScalarJet, after: ScalarJet, scale: f64, what: &str) {
     }
 }
 
+/// The eigenfunctions of a scheme at both contractions, if rules can be derived.
+fn eigenfunctions(kind: SchemeKind, n: usize) -> Vec<Eigenfunctions> {
+    let contractions = [Contraction::CatmullClark, Contraction::Half];
+    let known = contractions.into_iter().filter(|&c| kind.check_contraction(c).is_ok());
+    known.map(|c| Eigenfunctions::with_contraction(kind, c, n).unwrap()).collect()
+}
+
+/// The jet at (a,b) of ring 0, or of ring 1, on the side to which (da,db) points.
+fn jet_beside(
+    f: &Eigenfunctions,
+    (k, ring, sector): (usize, usize, usize),
+    [a, b]: [f64; 2],
+    [da, db]: [f64; 2],
+) -> ScalarJet {
+    let size = f.sigma().powi(ring as i32);
+    let [x, y] = [(a + 1e-9 * da) / size, (b + 1e-9 * db) / size];
+    let has = |[[a0, a1], [b0, b1]]: [[f64; 2]; 2]| a0 <= x && x <= a1 && b0 <= y && y <= b1;
+    let which = (0..f.patches_per_sector()).find(|&which| has(f.patch_domain(which)));
+    f.eval_on(k, ring, sector, which.unwrap(), [a, b])
+}
+
 #[test]
 fn eigenfunctions_are_c2_and_scale() {
-    for (kind, n) in GUIDED.into_iter().flat_map(|kind| [3, 5, 6, 8].map(|n| (kind, n))) {
-        let f = Eigenfunctions::new(kind, n).unwrap();
-        let split = [0, 0, 0, 3, 2, 1, 1][f.degree()];
-        let part = 0.5 / split as f64;
+    let cases = GUIDED.into_iter().flat_map(|kind| [3, 5, 6, 8].map(|n| (kind, n)));
+    for (kind, f) in
+        cases.flat_map(|(kind, n)| eigenfunctions(kind, n).into_iter().map(move |f| (kind, f)))
+    {
+        let (n, sigma) = (f.valence(), f.sigma());
         for k in 0..f.len() {
-            let what = format!("{} n = {n}, function {k}", kind.name());
+            let what = format!("{} n = {n} sigma = {sigma}, function {k}", kind.name());
             let scale = f.eval(k, 0, 1.0, 1.0).rows().iter().fold(1.0, |m: f64, x| m.max(x.abs()));
             for (sector, t) in [(0, 0.13), (1, 0.77), (n - 1, 0.5)] {
-                // Between rings: the inner patches of ring 0 and the outer ones of ring 1.
-                let b = 0.5 * t;
-                let at = |x: f64, parts: usize| {
-                    ((x / part * parts as f64) as usize).min(split * parts - 1)
-                };
-                let inner = f.eval_on(k, 0, sector, split * split + at(b, 1), [0.5, b]);
-                let outer = {
-                    let row = at(b, 2);
-                    let square = if row >= split { 0 } else { 1 };
-                    let which = square * split * split + (split - 1) * split + row % split;
-                    f.eval_on(k, 1, sector, which, [0.5, b])
-                };
-                assert_c2(inner, outer, scale, &what);
+                let (b, a) = (sigma * t, sigma + (1.0 - sigma) * t);
+                let beside = |ring, place, toward| jet_beside(&f, (k, ring, sector), place, toward);
+                // Between rings 0 and 1.
+                let (outer, inner) = ([sigma, b], [b, sigma]);
+                assert_c2(
+                    beside(0, outer, [1.0, 0.0]),
+                    beside(1, outer, [-1.0, 0.0]),
+                    scale,
+                    &what,
+                );
+                assert_c2(
+                    beside(0, inner, [0.0, 1.0]),
+                    beside(1, inner, [0.0, -1.0]),
+                    scale,
+                    &what,
+                );
                 // Across a line.
-                let a = 0.5 + 0.5 * t;
                 let behind = f.eval(k, sector, 0.0, a);
                 let ahead = f.eval(k, (sector + 1) % n, a, 0.0);
                 assert_c2(beyond_line(behind), ahead, scale, &what);
                 // Across the borders within the ring.
-                let below = f.eval(k, sector, a, 0.5);
-                let above = f.eval_on(k, 0, sector, ((a - 0.5) / part) as usize * split, [a, 0.5]);
-                assert_c2(below, above, scale, &what);
+                let inside = [a, sigma];
+                assert_c2(
+                    beside(0, inside, [0.0, -1.0]),
+                    beside(0, inside, [0.0, 1.0]),
+                    scale,
+                    &what,
+                );
                 // Scaling, at points inside patches and on their borders.
-                let (lambda, s) = (f.eigenvalue(k), [a, b]);
-                let [outer, inner] = [1.0, 0.125].map(|h| f.eval(k, sector, h * s[0], h * s[1]));
-                let expected = outer.scaled(lambda * lambda * lambda, [8.0; 2]);
-                assert_c2(expected, inner, 512.0 * scale, &what);
+                let (lambda, h) = (f.eigenvalue(k), sigma * sigma * sigma);
+                let [outer, inner] = [1.0, h].map(|h| f.eval(k, sector, h * a, h * b));
+                let expected = outer.scaled(lambda * lambda * lambda, [1.0 / h; 2]);
+                assert_c2(expected, inner, 8.0 * scale / (h * h), &what);
             }
         }
     }

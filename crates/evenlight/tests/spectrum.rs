@@ -129,6 +129,83 @@ fn quadratic_attraction_has_bounded_curvature_at_every_valence() {
     }
 }
 
+/// The specification of our own schemes: what is not q dies faster than .80 lambda^2 (fair3: .81), so
+/// that curvature is bounded, and with lambda the characteristic map is Catmull-Clark's.
+#[test]
+fn fair_schemes_have_bounded_curvature_at_every_valence() {
+    let fair4 = [
+        (3, 0.707),
+        (5, 0.760),
+        (6, 0.759),
+        (7, 0.769),
+        (8, 0.779),
+        (9, 0.786),
+        (10, 0.787),
+        (12, 0.793),
+        (16, 0.748),
+    ];
+    for (n, md) in fair4 {
+        let s = spectrum(SchemeKind::Fair4, RuleSet::Generated, n).unwrap();
+        let found = s.md_max_over_lambda2.unwrap();
+        assert!((found - md).abs() < 1e-3, "n = {n}: {found}");
+    }
+    for (scheme, limit) in [(SchemeKind::Fair4, 0.80), (SchemeKind::Fair3, 0.81)] {
+        let spectra = all(scheme, RuleSet::Generated);
+        assert_eq!(spectra.len(), 13);
+        for s in spectra {
+            let (lambda, name) = (s.lambda, format!("{} n = {}", scheme.name(), s.valence));
+            assert!(s.md_max_over_lambda2.unwrap() <= limit, "{name}");
+            let q = [1.0, lambda, lambda, lambda * lambda, lambda * lambda, lambda * lambda];
+            assert!(s.moduli.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-14), "{name}");
+            assert!((lambda - catmull_clark_eigenvalue(s.valence, 1)).abs() < 1e-14, "{name}");
+        }
+    }
+}
+
+/// fair4d, without a q, has lambda^2 three times all the same, and below it nothing above .6; the
+/// specification's numbers are the next eigenvalue.
+#[test]
+fn fair4d_has_bounded_curvature_without_a_quadratic() {
+    let next = [
+        (3, 0.381),
+        (5, 0.528),
+        (6, 0.565),
+        (7, 0.574),
+        (8, 0.582),
+        (9, 0.585),
+        (10, 0.583),
+        (12, 0.564),
+        (16, 0.528),
+    ];
+    let spectra = all(SchemeKind::Fair4d, RuleSet::Generated);
+    assert_eq!(spectra.len(), 13);
+    for s in spectra {
+        let (n, lambda2) = (s.valence, s.lambda * s.lambda);
+        assert!((s.lambda - catmull_clark_eigenvalue(n, 1)).abs() < 1e-12, "n = {n}");
+        // A threefold eigenvalue is found to the third root of the rounding, if it is defective;
+        // it is not.
+        assert!(s.moduli[3..6].iter().all(|x| (x / lambda2 - 1.0).abs() < 1e-12), "n = {n}");
+        let found = s.moduli[6] / lambda2;
+        assert!(found < 0.6, "n = {n}: {found}");
+        if let Some((_, printed)) = next.iter().find(|(valence, _)| *valence == n) {
+            assert!((found - printed).abs() < 1e-3, "n = {n}: {found}");
+        }
+    }
+}
+
+/// The rules have the degree-raised characteristic net of Catmull-Clark subdivision for an
+/// eigenvector, so all these maps are one, and so are the least values of their Jacobians.
+#[test]
+fn characteristic_maps_of_fair_schemes_are_catmull_clarks() {
+    for n in (3..=16).filter(|&n| n != 4) {
+        let of = |scheme| spectrum(scheme, RuleSet::Generated, n).unwrap().jacobian_min;
+        let cc = of(SchemeKind::CatmullClark);
+        for scheme in [SchemeKind::Fair4, SchemeKind::Fair4d, SchemeKind::Fair3] {
+            assert!((of(scheme) / cc - 1.0).abs() < 1e-9, "{} n = {n}", scheme.name());
+        }
+    }
+}
+
 #[test]
 fn point_augmented_schemes_contract_like_catmull_clark() {
     for scheme in [SchemeKind::Pas3, SchemeKind::Pas4] {

@@ -21,7 +21,7 @@ pub struct FixArgs {
     pub target: Option<Target>,
 
     /// Repair: merge vertices not further apart than this, in the units of the cage
-    #[arg(long, value_name = "DISTANCE", requires = "target", value_parser = distance)]
+    #[arg(long, value_name = "DISTANCE", requires = "target", allow_negative_numbers = true, value_parser = distance)]
     merge: Option<f64>,
 
     /// Repair: flip faces that disagree with most of their piece

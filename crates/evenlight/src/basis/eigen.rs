@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use super::guide::{HomogeneousGuide, MAX_TOTAL_DEGREE};
 use super::scalar::ScalarJet;
+use crate::net::{CNET_NODES, CNet};
 use crate::rings::{power, ring_of, scaled_up};
 use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 
@@ -16,7 +17,7 @@ use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 ///   f(a/2, b/2) = lambda^s f(a,b),    in each sector.
 /// ```
 ///
-/// So all rings are known from the first one. They are C2 everywhere but at the centre. Every guided
+/// (With other contractions than Catmull-Clark's sigma takes the place of 1/2.) So all rings are known from the first one. They are C2 everywhere but at the centre. Every guided
 /// surface is a sum of eigenfunctions from ring 1 on (ring 0 has the border of the surrounding
 /// surface instead of theirs). Function 0 is the constant 1, functions 1 and 2 are the
 /// characteristic map, the even one along the diagonal of sector 0.
@@ -34,6 +35,7 @@ use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 /// ```
 #[derive(Debug)]
 pub struct Eigenfunctions {
+    kind: SchemeKind,
     rules: Rules,
     lambda: f64,
     guides: Vec<HomogeneousGuide>,
@@ -61,7 +63,7 @@ impl Eigenfunctions {
         let of_degree = |degree| HomogeneousGuide::all(valence, degree);
         let guides: Vec<_> = (0..=MAX_TOTAL_DEGREE).flat_map(of_degree).collect();
         let rings = guides.iter().map(|_| OnceLock::new()).collect();
-        Some(Self { rules, lambda, guides, rings })
+        Some(Self { kind, rules, lambda, guides, rings })
     }
 
     /// The valence.
@@ -72,6 +74,12 @@ impl Eigenfunctions {
     /// The subdominant eigenvalue.
     pub fn lambda(&self) -> f64 {
         self.lambda
+    }
+
+    /// The factor by which the parameters of the rings shrink: 1/2 but for contractions other than
+    /// Catmull-Clark's.
+    pub fn sigma(&self) -> f64 {
+        self.rules.sigma()
     }
 
     /// The number of functions, 17n + n* + 6.
@@ -180,9 +188,34 @@ impl Eigenfunctions {
         jet.scaled(self.factor(k, ring), size.map(|size| speed / size))
     }
 
+    /// The patch of the outermost ring that has (a,b).
+    pub(super) fn patch_at(&self, place: [f64; 2]) -> usize {
+        self.rules.patch_at(place)
+    }
+
+    /// Coefficient number `at` of a patch of sector 0 as weights of nodes; of those next to the
+    /// outer border all are nodes of the border.
+    pub(super) fn border_row(&self, which: usize, at: usize) -> &[(usize, f64)] {
+        &self.rules.patches[which].old[at]
+    }
+
+    /// The limit point if node `node` of a c-net is 1 and the others 0, and the nodes of all sectors
+    /// relative to it.
+    pub(super) fn net_of_node(&self, node: usize) -> (f64, Vec<f64>) {
+        let sectors = vec![[[0.0; 3]; CNET_NODES]; self.valence()];
+        let mut cnet = CNet { center: [0.0; 3], sectors };
+        match cnet.sectors.get_mut(node / CNET_NODES) {
+            Some(sector) => sector[node % CNET_NODES][0] = 1.0,
+            None => cnet.center[0] = 1.0,
+        }
+        let limit = self.kind.limit_point(&cnet);
+        let net = self.rules.guided_net(&cnet.relative_to(limit)).unwrap_or_default();
+        (limit[0], net.iter().map(|p| p[0]).collect())
+    }
+
     /// The nodes of function `k` in front of ring 0, in the x coordinate. For the constant, which
     /// nets leave out, all are zero.
-    fn net(&self, k: usize) -> Vec<[f64; 3]> {
+    pub(super) fn net(&self, k: usize) -> Vec<[f64; 3]> {
         let (rules, guide) = (&self.rules, &self.guides[k]);
         let monomials = guide_monomials();
         let border = rules.control_nodes_per_sector();

@@ -6,12 +6,20 @@
 //!
 //! - [`HomogeneousGuide`]: guides of one degree s, the eigenvectors, with their number
 //!   ([`multiplicity`]), found by solving the conditions of curvature continuity;
-//! - [`Eigenfunctions`]: the functions that follow them, f(a/2, b/2) = lambda^s f(a,b).
+//! - [`Eigenfunctions`]: the functions that follow them, f(a/2, b/2) = lambda^s f(a,b);
+//! - [`RefinableSpace`]: nested spaces V_m of C2 functions, splines on m rings and a guide inside,
+//!   element by element with Bezier extraction ([`Element`]), and the sparse matrices from each to
+//!   the next.
 
 mod eigen;
 mod guide;
+mod layout;
 mod scalar;
+mod space;
+mod sparse;
 
 pub use eigen::Eigenfunctions;
 pub use guide::{HomogeneousGuide, MAX_TOTAL_DEGREE, Parity, multiplicity};
 pub use scalar::ScalarJet;
+pub use space::{Element, FunctionKind, RefinableSpace, Support};
+pub use sparse::SparseMatrix;

@@ -1,0 +1,326 @@
+//! Where the functions of rings sit, and the BB coefficients of a ring from theirs.
+//!
+//! In one variable, C2 splines of degree 5 with triple knots have three B-splines for each knot,
+//! called L, M, R here; those of degree 6 with fourfold knots have one more for each segment. With
+//! the knot at the share t of the two segments beside it, their coefficients are, next to the knot,
+//!
+//! ```text
+//!   p_(d-2) = L,  p_(d-1) = (1-t) L + t M,      q_1 = (1-t) M + t R,  q_2 = R,
+//!   p_d = q_0 = (1-t)^2 L + 2 t (1-t) M + t^2 R:
+//! ```
+//!
+//! C2 whatever L, M, R are, 1 if they are 1, and not negative unless one of them is. Here knots of
+//! rings are at sigma of \[0,1\], those on the lines between sectors, of equal segments, at 1/2.
+//!
+//! Functions are tensor products of these. The corners, of which every ring has two for each sector
+//! at its hole, have nine; the ring beyond a corner and the one before it share them. In degree 6
+//! edges have three and squares one:
+//!
+//! ```text
+//!   v
+//!   1 .-------e-------.-------e-------.      o  corner functions of the level of the ring's hole,
+//!     |               |               |      e  edge functions (bi-6) of that level; those of the
+//!     e'      f       e'      f       |         outer edges belong to the level before
+//!     |               |               |      e' edge functions of the ring itself (bi-6)
+//!   s o-------e-------o-------e'------.      f  face functions of the ring itself (bi-6)
+//!     |               |               |
+//!     |               e       f       e
+//!     |     hole      |               |
+//!     +---------------o-------e'------.  u, line s-1
+//! ```
+//!
+//! The outer border of a ring, its three outer layers, has the functions of the level before:
+//! those of level 0 are the border of the whole.
+
+/// Weights of functions, numbered by [`Layout::slot`].
+pub(super) type Combination = Vec<(usize, f64)>;
+
+/// Coefficients of a patch next to a side that a knot decides on.
+pub(super) const LAYERS: usize = 3;
+
+/// The square \[s,1\] x \[s,1\] of a ring.
+const DIAGONAL: usize = 0;
+
+/// The square \[s,1\] x \[0,s\], ahead of line s-1.
+const AHEAD: usize = 1;
+
+/// The square \[0,s\] x \[s,1\], behind line s.
+const BEHIND: usize = 2;
+
+/// A knot at the share t between two segments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Knot(f64);
+
+impl Knot {
+    /// The weights of L, M, R in coefficient `k` = 0, 1, 2 behind the knot.
+    fn right(self, k: usize) -> [f64; 3] {
+        let (s, t) = (1.0 - self.0, self.0);
+        [[s * s, 2.0 * s * t, t * t], [0.0, s, t], [0.0, 0.0, 1.0]][k]
+    }
+
+    /// The weights of L, M, R in coefficient `k` = 0, 1, 2, that is d-2, d-1, d, before the knot.
+    fn left(self, k: usize) -> [f64; 3] {
+        let [l, m, r] = Self(1.0 - self.0).right(LAYERS - 1 - k);
+        [r, m, l]
+    }
+
+    /// The weights of coefficients 0, 1, 2 behind the knot in L, M, R (number `p`).
+    fn of_right(self, p: usize) -> [f64; 3] {
+        let (s, t) = (1.0 - self.0, self.0);
+        let middle = [0.0, 1.0 / s, -t / s];
+        match p {
+            2 => [0.0, 0.0, 1.0],
+            1 => middle,
+            _ => {
+                let rest = [1.0, -2.0 * s * t * middle[1], -2.0 * s * t * middle[2] - t * t];
+                rest.map(|x| x / (s * s))
+            }
+        }
+    }
+
+    /// The weights of coefficients d-2, d-1, d before the knot in L, M, R (number `p`).
+    fn of_left(self, p: usize) -> [f64; 3] {
+        let [a, b, c] = Self(1.0 - self.0).of_right(LAYERS - 1 - p);
+        [c, b, a]
+    }
+}
+
+/// A coefficient b_ij of the patch in a square.
+pub(super) type Coefficient = (usize, [usize; 2]);
+
+/// The numbering of the functions of one ring, for one sector.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layout {
+    /// The bi-degree, 5 or 6.
+    pub(super) degree: usize,
+    at_sigma: Knot,
+    on_line: Knot,
+}
+
+/// A place of functions in a sector: index p, 0 to 2 for L, M, R along u, q along v, m inside an
+/// edge, 0 .. d-5.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// At the corner on line s-1; q along the sector.
+    OnLine { p: usize, q: usize },
+    /// At the corner on the diagonal.
+    OnDiagonal { p: usize, q: usize },
+    /// At the edge u = sigma.
+    EdgeU { p: usize, m: usize },
+    /// At the edge v = sigma.
+    EdgeV { m: usize, q: usize },
+    /// At the edge on line s-1.
+    Line { m: usize, q: usize },
+    /// At the edge between the squares ahead and on the diagonal.
+    DiagonalAhead { m: usize, q: usize },
+    /// At the edge between the squares behind and on the diagonal.
+    DiagonalBehind { p: usize, m: usize },
+    /// In a square.
+    Face { square: usize, m: usize, k: usize },
+}
+
+impl Layout {
+    /// The layout of rings of bi-`degree` 5 or 6 whose hole is sigma wide.
+    pub(super) fn new(degree: usize, sigma: f64) -> Self {
+        Self { degree, at_sigma: Knot(sigma), on_line: Knot(0.5) }
+    }
+
+    /// The inner coefficients of a segment that no knot decides on, 0 or 1.
+    fn inner(self) -> usize {
+        self.degree - 5
+    }
+
+    /// The functions of a level in one sector: 18 or 24.
+    pub(super) fn of_level(self) -> usize {
+        18 + 6 * self.inner()
+    }
+
+    /// The functions of the ring itself in one sector: 0 or 12.
+    pub(super) fn of_ring(self) -> usize {
+        9 * self.inner() + 3 * self.inner() * self.inner()
+    }
+
+    /// The slots of one sector; those of the level come first. The slots of the next sector follow.
+    pub(super) fn slots(self) -> usize {
+        self.of_level() + self.of_ring()
+    }
+
+    /// The number of a function of a sector.
+    fn slot(self, place: Place) -> usize {
+        let h = self.inner();
+        let local = self.of_level();
+        match place {
+            Place::OnLine { p, q } => 3 * p + q,
+            Place::OnDiagonal { p, q } => 9 + 3 * p + q,
+            Place::EdgeU { p, m } => 18 + 3 * m + p,
+            Place::EdgeV { m, q } => 18 + 3 * (h + m) + q,
+            Place::Line { m, q } => local + 3 * m + q,
+            Place::DiagonalAhead { m, q } => local + 3 * (h + m) + q,
+            Place::DiagonalBehind { p, m } => local + 3 * (2 * h + m) + p,
+            Place::Face { square, m, k } => local + 9 * h + (square * h + m) * h + k,
+        }
+    }
+
+    /// Whether slot `slot` of a sector is seen by the sector before it, too.
+    pub(super) fn is_on_line(self, slot: usize) -> bool {
+        let local = self.of_level();
+        slot < 9 || (local..local + 3 * self.inner()).contains(&slot)
+    }
+
+    /// Products of weights along u and v at a corner; at that on the next line, where the corner's
+    /// own first direction is v and its second one -u, in its names.
+    fn product(self, corner: Corner, u: [f64; 3], v: [f64; 3]) -> Combination {
+        let pairs = (0..3).flat_map(|p| (0..3).map(move |q| (p, q)));
+        let slot = |p, q| match corner {
+            Corner::Line => self.slot(Place::OnLine { p, q }),
+            Corner::Diagonal => self.slot(Place::OnDiagonal { p, q }),
+            Corner::NextLine => self.slots() + self.slot(Place::OnLine { p: q, q: 2 - p }),
+        };
+        sparse(pairs.map(|(p, q)| (slot(p, q), u[p] * v[q])))
+    }
+
+    /// A coefficient of the layers behind a hole's edge, of the level of the hole: layer `layer` of
+    /// edge u = sigma (0) or v = sigma (1), number `k` along it.
+    ///
+    /// These are the inner layers of the squares ahead and behind, and the border of the next ring.
+    pub(super) fn border(self, edge: usize, layer: usize, k: usize) -> Combination {
+        let across = self.at_sigma.right(layer);
+        let last = self.degree + 1 - LAYERS;
+        let inside = |place: &dyn Fn(usize) -> Place| {
+            sparse((0..3).map(|p| (self.slot(place(p)), across[p])))
+        };
+        match (edge, k) {
+            (0, 0..LAYERS) => self.product(Corner::Line, across, self.on_line.right(k)),
+            (0, k) if k < last => inside(&|p| Place::EdgeU { p, m: k - LAYERS }),
+            (0, k) => self.product(Corner::Diagonal, across, self.at_sigma.left(k - last)),
+            (_, 0..LAYERS) => self.product(Corner::NextLine, self.on_line.right(k), across),
+            (_, k) if k < last => inside(&|q| Place::EdgeV { m: k - LAYERS, q }),
+            (_, k) => self.product(Corner::Diagonal, self.at_sigma.left(k - last), across),
+        }
+    }
+
+    /// A coefficient of a ring on the functions of its own slots; `None` for those of the outer
+    /// border.
+    pub(super) fn coefficient(self, (square, [i, j]): Coefficient) -> Option<Combination> {
+        let outer = self.degree + 1 - LAYERS;
+        let (is_outer_u, is_outer_v) =
+            (square != BEHIND && i >= outer, square != AHEAD && j >= outer);
+        if is_outer_u || is_outer_v {
+            return None;
+        }
+        Some(match square {
+            AHEAD if i < LAYERS => self.border(0, i, j),
+            BEHIND if j < LAYERS => self.border(1, j, i),
+            DIAGONAL if i < LAYERS && j < LAYERS => {
+                let [u, v] = [i, j].map(|k| self.at_sigma.right(k));
+                self.product(Corner::Diagonal, u, v)
+            }
+            _ => self.of_own_ring(square, [i, j]),
+        })
+    }
+
+    /// A coefficient that no function of a level enters.
+    fn of_own_ring(self, square: usize, [i, j]: [usize; 2]) -> Combination {
+        let last = self.degree + 1 - LAYERS;
+        let is_inner = |k: usize| (LAYERS..last).contains(&k);
+        if is_inner(i) && is_inner(j) {
+            return vec![(self.slot(Place::Face { square, m: i - LAYERS, k: j - LAYERS }), 1.0)];
+        }
+        // The number inside the edge, and across it.
+        let [m, k] = if is_inner(i) { [i - LAYERS, j] } else { [j - LAYERS, i] };
+        let (weights, slot): ([f64; 3], &dyn Fn(usize) -> usize) = match square {
+            AHEAD if k < LAYERS => (self.on_line.right(k), &|q| self.slot(Place::Line { m, q })),
+            AHEAD => (self.at_sigma.left(k - last), &|q| self.slot(Place::DiagonalAhead { m, q })),
+            BEHIND if k < LAYERS => {
+                (self.on_line.right(k), &|p| self.slots() + self.slot(Place::Line { m, q: 2 - p }))
+            }
+            BEHIND => {
+                (self.at_sigma.left(k - last), &|p| self.slot(Place::DiagonalBehind { p, m }))
+            }
+            _ if is_inner(i) => {
+                (self.at_sigma.right(k), &|q| self.slot(Place::DiagonalAhead { m, q }))
+            }
+            _ => (self.at_sigma.right(k), &|p| self.slot(Place::DiagonalBehind { p, m })),
+        };
+        sparse((0..3).map(|p| (slot(p), weights[p])))
+    }
+
+    /// The functions of one sector from the coefficients of a C2 ring: for each slot of the sector
+    /// weights of coefficients of the same sector.
+    pub(super) fn functions_from_ring(self) -> Vec<Vec<(Coefficient, f64)>> {
+        let h = self.inner();
+        let (line, sigma) = (self.on_line, self.at_sigma);
+        let both = |square: usize, u: [f64; 3], v: [f64; 3]| {
+            let pairs = (0..3).flat_map(|i| (0..3).map(move |j| [i, j]));
+            sparse(pairs.map(|[i, j]| ((square, [i, j]), u[i] * v[j])))
+        };
+        let along_u = |square: usize, u: [f64; 3], m: usize| {
+            sparse((0..3).map(|i| ((square, [i, LAYERS + m]), u[i])))
+        };
+        let along_v = |square: usize, m: usize, v: [f64; 3]| {
+            sparse((0..3).map(|j| ((square, [LAYERS + m, j]), v[j])))
+        };
+        let mut all = vec![Vec::new(); self.slots()];
+        for (p, q) in (0..3).flat_map(|p| (0..3).map(move |q| (p, q))) {
+            all[self.slot(Place::OnLine { p, q })] =
+                both(AHEAD, sigma.of_right(p), line.of_right(q));
+            all[self.slot(Place::OnDiagonal { p, q })] =
+                both(DIAGONAL, sigma.of_right(p), sigma.of_right(q));
+        }
+        for (p, m) in (0..3).flat_map(|p| (0..h).map(move |m| (p, m))) {
+            all[self.slot(Place::EdgeU { p, m })] = along_u(AHEAD, sigma.of_right(p), m);
+            all[self.slot(Place::EdgeV { m, q: p })] = along_v(BEHIND, m, sigma.of_right(p));
+            all[self.slot(Place::Line { m, q: p })] = along_v(AHEAD, m, line.of_right(p));
+            all[self.slot(Place::DiagonalAhead { m, q: p })] =
+                along_v(DIAGONAL, m, sigma.of_right(p));
+            all[self.slot(Place::DiagonalBehind { p, m })] =
+                along_u(DIAGONAL, sigma.of_right(p), m);
+        }
+        for (square, m, k) in
+            (0..3).flat_map(|square| (0..h).flat_map(move |m| (0..h).map(move |k| (square, m, k))))
+        {
+            all[self.slot(Place::Face { square, m, k })] =
+                vec![((square, [LAYERS + m, LAYERS + k]), 1.0)];
+        }
+        all
+    }
+
+    /// The functions of a level of one sector from the layers beyond the border: weights of (edge,
+    /// layer, number along the edge), as in [`Layout::border`].
+    pub(super) fn functions_from_border(self) -> Vec<Vec<([usize; 3], f64)>> {
+        let last = self.degree + 1 - LAYERS;
+        let corner = |first: usize, across: [f64; 3], along: [f64; 3]| {
+            let pairs = (0..3).flat_map(|layer| (0..3).map(move |k| (layer, k)));
+            sparse(pairs.map(|(layer, k)| ([0, layer, first + k], across[layer] * along[k])))
+        };
+        let edge = |edge: usize, m: usize, across: [f64; 3]| {
+            sparse((0..3).map(|layer| ([edge, layer, LAYERS + m], across[layer])))
+        };
+        let sigma = self.at_sigma;
+        let mut all = vec![Vec::new(); self.of_level()];
+        for (p, q) in (0..3).flat_map(|p| (0..3).map(move |q| (p, q))) {
+            all[self.slot(Place::OnLine { p, q })] =
+                corner(0, sigma.of_right(p), self.on_line.of_right(q));
+            all[self.slot(Place::OnDiagonal { p, q })] =
+                corner(last, sigma.of_right(p), sigma.of_left(q));
+        }
+        for (p, m) in (0..3).flat_map(|p| (0..self.inner()).map(move |m| (p, m))) {
+            all[self.slot(Place::EdgeU { p, m })] = edge(0, m, sigma.of_right(p));
+            all[self.slot(Place::EdgeV { m, q: p })] = edge(1, m, sigma.of_right(p));
+        }
+        all
+    }
+}
+
+/// A corner of the hole that a sector sees.
+#[derive(Clone, Copy, Debug)]
+enum Corner {
+    Line,
+    Diagonal,
+    NextLine,
+}
+
+/// Without weights of zero.
+fn sparse<T>(weights: impl Iterator<Item = (T, f64)>) -> Vec<(T, f64)> {
+    weights.filter(|(_, w)| *w != 0.0).collect()
+}
