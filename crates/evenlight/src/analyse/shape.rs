@@ -380,19 +380,17 @@ mod tests {
     fn the_gradients_of_curvatures_are_their_difference_quotients() {
         let patch = crooked();
         let [ru, rv] = [0, 1].map(|parameter| derivative(&patch, parameter));
-        let curvature = |u: f64, v: f64| patch.jet(u, v).curvature();
-        let (gauss, mean) = (|u, v| curvature(u, v).0, |u, v| curvature(u, v).1);
-        let curvatures: [(&dyn Fn(f64, f64) -> f64, CurvatureDerivative); 2] =
-            [(&gauss, gauss_derivative), (&mean, mean_derivative)];
+        let curvatures = |u: f64, v: f64| -> [f64; 2] { patch.jet(u, v).curvature().into() };
+        let of: [CurvatureDerivative; 2] = [gauss_derivative, mean_derivative];
         let h = 1e-4;
         for (u, v) in [(0.1, 0.2), (0.5, 0.5), (0.9, 0.3), (0.25, 0.8)] {
             let (r, ru, rv) = (patch.jet(u, v), ru.jet(u, v), rv.jet(u, v));
-            for (value, by) in curvatures {
+            for (k, by) in of.into_iter().enumerate() {
                 let by_u = by(&r, [r.duu, r.duv], [ru.duu, ru.duv, ru.dvv]);
                 let by_v = by(&r, [r.duv, r.dvv], [rv.duu, rv.duv, rv.dvv]);
                 let quotients = [
-                    (value(u + h, v) - value(u - h, v)) / (2.0 * h),
-                    (value(u, v + h) - value(u, v - h)) / (2.0 * h),
+                    (curvatures(u + h, v)[k] - curvatures(u - h, v)[k]) / (2.0 * h),
+                    (curvatures(u, v + h)[k] - curvatures(u, v - h)[k]) / (2.0 * h),
                 ];
                 for (exact, quotient) in [by_u, by_v].into_iter().zip(quotients) {
                     assert!((exact - quotient).abs() < 1e-5 * (1.0 + exact.abs()), "({u}, {v})");
