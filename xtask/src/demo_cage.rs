@@ -491,7 +491,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use evenlight::mesh::isolation::extraordinary_points;
-    use evenlight::mesh::{Cage as CheckedCage, Mesh};
+    use evenlight::mesh::{BoundaryRule, Cage as CheckedCage, Mesh};
 
     use super::*;
 
@@ -509,7 +509,7 @@ mod tests {
 
     #[test]
     fn extraordinary_vertices_of_valence_3_5_6_and_8_are_isolated() {
-        let points = extraordinary_points(checked().topology());
+        let points = extraordinary_points(&checked(), BoundaryRule::default());
         let valences: BTreeSet<usize> = points.iter().map(|p| p.valence).collect();
         assert_eq!(valences, BTreeSet::from([3, 5, 6, 8]));
         assert!(points.iter().all(|p| p.level == 0));

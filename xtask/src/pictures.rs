@@ -8,9 +8,12 @@ use std::error::Error;
 use std::fs;
 use std::sync::Arc;
 
+use evenlight::basis::{Eigenfunctions, Parity};
 use evenlight::io::obj;
 use evenlight::net::Quadratic;
-use evenlight::picture::{Picture, RenderOptions, Style, View, compare, render};
+use evenlight::picture::{
+    self, GraphOptions, Picture, RenderOptions, Style, View, compare, render,
+};
 use evenlight::point::{add, scale};
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
@@ -20,13 +23,14 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 type Make = fn() -> Result<Picture>;
 
 /// The pictures.
-const PICTURES: [(&str, Make); 6] = [
+const PICTURES: [(&str, Make); 7] = [
     ("chair.png", chair),
     ("pinch.png", pinch),
     ("family.png", family),
     ("quadratic.png", quadratic),
     ("patches.png", patches),
     ("fair.png", fair),
+    ("eigenfunctions.png", eigenfunctions),
 ];
 
 /// Draw the pictures of the README and the docs.
@@ -180,4 +184,14 @@ fn patches() -> Result<Picture> {
         ..RenderOptions::default()
     };
     Ok(compare(&panels, &options)?)
+}
+
+/// Eigenfunctions of guided5 at valence 5: the even ones of eigenvalues lambda^2 to lambda^4.
+fn eigenfunctions() -> Result<Picture> {
+    let functions = Eigenfunctions::new(SchemeKind::Guided5, 5).ok_or("guided5 has valence 5")?;
+    let is_even = |&k: &usize| functions.guide(k).parity() == Parity::Even;
+    let from_degree_2 = functions.of_degree(2).start..functions.len();
+    let which: Vec<usize> = from_degree_2.filter(is_even).take(10).collect();
+    let options = GraphOptions { size: [1400, 560], ..GraphOptions::default() };
+    Ok(picture::eigenfunctions(&functions, &which, &options)?)
 }

@@ -1,23 +1,38 @@
 //! `evenlight check`: whether a cage can be used, and what is in it.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::io::{self, Write};
 
 use clap::Args;
 use evenlight::io::load::{LoadError, Loaded, Notice};
+use evenlight::mesh::BoundaryRule;
 use evenlight::mesh::isolation::{self, Extraordinary, Place};
-use evenlight::{Cage, FaceId, RuleSet, SchemeKind};
+use evenlight::surface::PointRule;
+use evenlight::{Cage, SchemeKind, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
-use crate::input::{self, CageArg, Source, omitted_text};
+use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text};
+use crate::options::{BoundaryArg, scheme_parser};
 use crate::output::Target;
+
+mod fix;
+
+use fix::FixArgs;
 
 /// Arguments of `evenlight check`.
 #[derive(Args, Debug)]
 pub struct CheckArgs {
     #[command(flatten)]
     cage: CageArg,
+
+    /// The scheme that extraordinary points are to get
+    #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
+    scheme: SchemeKind,
+
+    #[command(flatten)]
+    boundary: BoundaryArg,
 
     /// JSON instead of text; also for a cage that is refused, with its faults in `errors`
     #[arg(long)]
@@ -26,6 +41,9 @@ pub struct CheckArgs {
     /// The file to write; `-` for stdout
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: Target,
+
+    #[command(flatten)]
+    fix: FixArgs,
 }
 
 /// Runs `evenlight check`.
@@ -34,8 +52,16 @@ pub struct CheckArgs {
 ///
 /// All faults of the cage, if it cannot be used.
 pub fn run(args: &CheckArgs) -> Result<(), Failure> {
+    if let Some(target) = &args.fix.target {
+        return args.fix.run(&args.cage, target, args.json, &args.output);
+    }
     let result = input::read_mesh(&args.cage)?.and_then(Loaded::check);
-    let report = Report::of(&result);
+    let options = SurfaceOptions {
+        scheme: args.scheme,
+        boundary: args.boundary.rule(),
+        ..SurfaceOptions::default()
+    };
+    let report = Report::of(&result, options);
     if args.json {
         args.output.write_json(&report)?;
     }
@@ -67,11 +93,16 @@ pub struct Report {
     valences: BTreeMap<usize, usize>,
     /// How many faces there are of each number of corners but 4.
     ngons: BTreeMap<usize, usize>,
-    /// The interior vertices with a valence other than 4.
+    /// The rule at the boundary.
+    boundary: Option<&'static str>,
+    /// How many extraordinary points have which rule.
+    rules: BTreeMap<String, usize>,
+    /// The interior vertices with a valence other than 4, and the vertices on sharp edges or the
+    /// boundary that are not regular there, once for every such fan of faces.
     extraordinary: Vec<ExtraordinaryVertex>,
     /// The centres of the faces with other than 4 corners.
     face_centres: Vec<FaceCentre>,
-    /// How many faces have no surface, since they touch a boundary.
+    /// How many faces have no surface: holes, and those at the boundary under the rule "none".
     omitted_faces: Option<usize>,
     /// Why the cage is refused; empty if it can be used.
     errors: Vec<String>,
@@ -79,12 +110,16 @@ pub struct Report {
     warnings: Vec<String>,
 }
 
-/// An interior vertex with a valence other than 4.
+/// An extraordinary vertex.
 #[derive(Debug, Serialize)]
 struct ExtraordinaryVertex {
     vertex: u32,
     valence: usize,
-    /// The level of Catmull-Clark refinement, 0 to 2, at which it is isolated.
+    /// The faces that it concerns: all, or those between two sharp edges.
+    faces: usize,
+    #[serde(flatten)]
+    rule: RuleName,
+    /// The level of Catmull-Clark refinement at which it is isolated.
     level: usize,
     /// Whether some face around it has a surface.
     has_surface: bool,
@@ -95,15 +130,30 @@ struct ExtraordinaryVertex {
 struct FaceCentre {
     face: u32,
     valence: usize,
+    #[serde(flatten)]
+    rule: RuleName,
     level: usize,
     has_surface: bool,
 }
 
+/// The rule of a point, and why it is not the chosen scheme.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct RuleName {
+    /// The name of a scheme, or "none" without a surface.
+    rule: &'static str,
+    /// Why the rule is Catmull-Clark's although another scheme was chosen; `null` if it was not.
+    reason: Option<&'static str>,
+    /// Whether semi-sharp edges had to be refined away first.
+    was_semi_sharp: bool,
+    #[serde(skip)]
+    words: Option<PointRule>,
+}
+
 impl Report {
     /// What is known of a cage that was read, or why it was not.
-    pub fn of(result: &Result<(Cage, Vec<Notice>), LoadError>) -> Self {
+    pub fn of(result: &Result<(Cage, Vec<Notice>), LoadError>, options: SurfaceOptions) -> Self {
         match result {
-            Ok((cage, notices)) => Self::of_cage(cage, notices),
+            Ok((cage, notices)) => Self::of_cage(cage, notices, options),
             Err(error) => Self {
                 errors: error.faults(),
                 warnings: error.notices().iter().map(ToString::to_string).collect(),
@@ -112,10 +162,9 @@ impl Report {
         }
     }
 
-    fn of_cage(cage: &Cage, notices: &[Notice]) -> Self {
-        let topology = cage.topology();
-        let is_omitted = |&f: &FaceId| isolation::is_omitted(topology, f);
-        let omitted = topology.faces().ids().filter(is_omitted).count();
+    fn of_cage(cage: &Cage, notices: &[Notice], options: SurfaceOptions) -> Self {
+        let boundary = options.boundary.unwrap_or(cage.tags().boundary);
+        let omitted = isolation::omitted_faces(cage, boundary).len();
         let mut ngons = cage.face_sizes();
         ngons.remove(&4);
         let mut report = Self {
@@ -126,34 +175,38 @@ impl Report {
             components: Some(cage.num_components()),
             valences: cage.interior_valences(),
             ngons,
+            boundary: Some(boundary_name(boundary)),
             omitted_faces: Some(omitted),
             warnings: notices.iter().map(ToString::to_string).collect(),
             ..Self::default()
         };
-        let points = isolation::extraordinary_points(topology);
-        report.warnings.extend(valence_warning(&points));
+        let points = isolation::extraordinary_points(cage, boundary);
+        report.warnings.extend(valence_warning(&points, options));
         if omitted > 0 {
             report.warnings.push(omitted_text(omitted, cage.num_faces()));
         }
-        points.into_iter().for_each(|point| report.add(point));
+        points.into_iter().for_each(|point| report.add(point, rule_name(cage, &point, options)));
         report
     }
 
-    fn add(&mut self, point: Extraordinary) {
-        let Extraordinary { valence, level, is_covered: has_surface, .. } = point;
+    fn add(&mut self, point: Extraordinary, rule: RuleName) {
+        let Extraordinary { valence, level, is_covered: has_surface, fan, .. } = point;
+        *self.rules.entry(rule.to_string()).or_insert(0) += 1;
         match point.place {
             Place::Vertex(v) => {
                 let vertex = v.0;
                 self.extraordinary.push(ExtraordinaryVertex {
                     vertex,
                     valence,
+                    faces: fan.faces,
+                    rule,
                     level,
                     has_surface,
                 });
             }
             Place::FaceCentre(f) => {
                 let face = f.0;
-                self.face_centres.push(FaceCentre { face, valence, level, has_surface });
+                self.face_centres.push(FaceCentre { face, valence, rule, level, has_surface });
             }
         }
     }
@@ -167,6 +220,7 @@ impl Report {
         writeln!(out, "  faces           {}", count(self.faces))?;
         writeln!(out, "  n-gons          {}", histogram(&self.ngons, "corners"))?;
         writeln!(out, "  boundary edges  {}", count(self.boundary_edges))?;
+        writeln!(out, "  boundary rule   {}", self.boundary.unwrap_or_default())?;
         writeln!(out, "  components      {}", count(self.components))?;
         writeln!(out, "  valences        {}", histogram(&self.valences, "edges"))?;
         writeln!(out, "  left out        {}", left_out(count(self.omitted_faces)))?;
@@ -175,36 +229,73 @@ impl Report {
 
     fn write_points(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.extraordinary.len() + self.face_centres.len() > 0 {
+            writeln!(out, "  rules of extraordinary points")?;
+        }
+        for (rule, count) in &self.rules {
+            writeln!(out, "    {count:<6} {rule}")?;
+        }
+        if self.extraordinary.len() + self.face_centres.len() > 0 {
             writeln!(out, "  extraordinary points (numbers from 0), isolated at refinement level")?;
         }
         for p in &self.extraordinary {
-            let note = note(p.has_surface);
+            let of_faces = match p.faces {
+                faces if faces == p.valence => String::new(),
+                1 => " (1 face)".to_owned(),
+                faces => format!(" ({faces} faces)"),
+            };
             writeln!(
                 out,
-                "    vertex {:<8} valence {:<4} level {}{note}",
-                p.vertex, p.valence, p.level
+                "    vertex {:<8} valence {:<4} level {}  {}{of_faces}",
+                p.vertex, p.valence, p.level, p.rule
             )?;
         }
         for p in &self.face_centres {
-            let note = note(p.has_surface);
             writeln!(
                 out,
-                "    face {:<10} valence {:<4} level {}{note}",
-                p.face, p.valence, p.level
+                "    face {:<10} valence {:<4} level {}  {}",
+                p.face, p.valence, p.level, p.rule
             )?;
         }
         Ok(())
     }
 }
 
-fn note(has_surface: bool) -> &'static str {
-    if has_surface { "" } else { "  (left out)" }
+fn rule_name(cage: &Cage, point: &Extraordinary, options: SurfaceOptions) -> RuleName {
+    let rule = point.is_covered.then(|| PointRule::of(cage, point, options));
+    RuleName {
+        rule: rule.map_or("none", |rule| rule.scheme(options.scheme).name()),
+        reason: match rule {
+            Some(PointRule::CatmullClark(reason)) => Some(reason.name()),
+            _ => None,
+        },
+        was_semi_sharp: point.was_semi_sharp,
+        words: rule,
+    }
+}
+
+impl fmt::Display for RuleName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.words {
+            None => f.write_str("left out")?,
+            Some(PointRule::Scheme) => f.write_str(self.rule)?,
+            Some(PointRule::CatmullClark(reason)) => write!(f, "cc: {reason}")?,
+        }
+        f.write_str(if self.was_semi_sharp { ", after semi-sharp creases have gone" } else { "" })
+    }
+}
+
+fn boundary_name(rule: BoundaryRule) -> &'static str {
+    match rule {
+        BoundaryRule::None => "none",
+        BoundaryRule::EdgeOnly => "edge-only",
+        BoundaryRule::EdgeAndCorner => "edge-and-corner",
+    }
 }
 
 fn left_out(omitted: usize) -> String {
     match omitted {
         0 => "nothing".to_owned(),
-        _ => format!("{omitted} faces that touch a boundary"),
+        _ => format!("{omitted} faces ({WHY_OMITTED})"),
     }
 }
 
@@ -219,10 +310,12 @@ fn histogram(counts: &BTreeMap<usize, usize>, of: &str) -> String {
 /// The most points that a warning names.
 const LISTED: usize = 8;
 
-/// The sentence on points for which the default scheme has no rules.
-fn valence_warning(points: &[Extraordinary]) -> Option<String> {
-    let (scheme, rules) = (SchemeKind::default(), RuleSet::default());
-    let without_rules = |p: &&Extraordinary| p.is_covered && !scheme.has_rules(rules, p.valence);
+/// The sentence on points for which the scheme has no rules.
+fn valence_warning(points: &[Extraordinary], options: SurfaceOptions) -> Option<String> {
+    let SurfaceOptions { scheme, rules, .. } = options;
+    let without_rules = |p: &&Extraordinary| {
+        p.is_covered && p.fan.is_smooth() && !scheme.has_rules(rules, p.valence)
+    };
     let name = |p: &Extraordinary| match p.place {
         Place::Vertex(v) => format!("vertex {} has valence {}", v.0, p.valence),
         Place::FaceCentre(f) => format!("face {} has {} corners", f.0, p.valence),
@@ -237,7 +330,8 @@ fn valence_warning(points: &[Extraordinary]) -> Option<String> {
         names.push(format!("{more} more"));
     }
     Some(format!(
-        "all schemes but cc have rules for valences {} only: {} (numbers from 0)",
+        "scheme {} has rules for valences {} only, cc takes their place: {} (numbers from 0)",
+        scheme.name(),
         scheme.valences(rules),
         names.join(", ")
     ))

@@ -160,7 +160,7 @@ pub fn report_omitted(surface: &Surface, source: &Source) -> Result<(), Failure>
     match surface.omitted_faces().len() {
         0 => Ok(()),
         omitted if omitted == faces => Err(Failure::Unusable(format!(
-            "{source}: all {faces} faces touch a boundary and are left out: no surface remains"
+            "{source}: all {faces} faces are left out ({WHY_OMITTED}): no surface remains"
         ))),
         omitted => {
             warn(format_args!("{source}: {}", omitted_text(omitted, faces)));
@@ -169,7 +169,10 @@ pub fn report_omitted(surface: &Surface, source: &Source) -> Result<(), Failure>
     }
 }
 
+/// Which faces have no surface.
+pub const WHY_OMITTED: &str = "holes, or at the boundary under the rule none";
+
 /// The sentence on faces without a surface.
 pub fn omitted_text(omitted: usize, faces: usize) -> String {
-    format!("{omitted} of {faces} faces touch a boundary and are left out")
+    format!("{omitted} of {faces} faces are left out ({WHY_OMITTED})")
 }

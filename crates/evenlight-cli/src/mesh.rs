@@ -2,11 +2,11 @@
 
 use clap::{Args, ValueEnum};
 use evenlight::Surface;
-use evenlight::io::{obj_out, ply_out, stl};
+use evenlight::io::{glb, obj_out, ply_out, stl};
 use evenlight::tessellate::{TriangleMesh, tessellate};
 
+use crate::cap::CapRingsArg;
 use crate::error::Failure;
-use crate::input;
 use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
@@ -17,8 +17,11 @@ pub struct MeshArgs {
     #[command(flatten)]
     surface: SurfaceArgs,
 
-    /// The file to write: .obj with normals, .ply with normals and curvature, or .stl; `-` for
-    /// stdout
+    #[command(flatten)]
+    caps: CapRingsArg,
+
+    /// The file to write: .obj with normals, .ply or .glb with normals and curvature, or .stl; `-`
+    /// for stdout
     #[arg(short, long, value_name = "FILE")]
     output: Target,
 
@@ -40,6 +43,8 @@ pub enum MeshFormat {
     Ply,
     /// Binary STL
     Stl,
+    /// Binary glTF with normals, Gauss and mean curvature per vertex
+    Glb,
 }
 
 /// Runs `evenlight mesh`.
@@ -47,7 +52,7 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let format = args.output.format(args.format)?;
     let progress = Progress::new(3, quiet);
     progress.stage("Building the surface");
-    let surface = input::read_surface(&args.surface)?;
+    let surface = args.caps.read(&args.surface)?;
     progress.step();
     progress.stage("Evaluating vertices");
     let mesh = triangles(&surface, args.rate.into())?;
@@ -67,5 +72,6 @@ pub fn write(mesh: &TriangleMesh, format: MeshFormat, target: &Target) -> Result
         MeshFormat::Obj => obj_out::write(mesh, &mut out),
         MeshFormat::Ply => ply_out::write(mesh, &mut out),
         MeshFormat::Stl => stl::write(mesh, &mut out),
+        MeshFormat::Glb => glb::write(mesh, &mut out),
     })
 }

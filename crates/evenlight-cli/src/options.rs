@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use evenlight::mesh::BoundaryRule;
 use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
 
 use crate::input::CageArg;
@@ -36,7 +37,41 @@ pub struct SurfaceArgs {
     pub rules: RulesArg,
 
     #[command(flatten)]
+    pub boundary: BoundaryArg,
+
+    #[command(flatten)]
     pub q: QArg,
+}
+
+/// What happens at the boundary.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct BoundaryArg {
+    /// The rule at the boundary of an open cage [default: what the file says, or else
+    /// edge-and-corner]
+    #[arg(long, value_enum, value_name = "RULE")]
+    pub boundary: Option<Boundary>,
+}
+
+/// The rules at the boundary by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Boundary {
+    /// Faces that touch the boundary have no surface
+    None,
+    /// The boundary is a smooth curve, also at vertices of a single face
+    EdgeOnly,
+    /// The boundary is a smooth curve through the vertices of a single face
+    EdgeAndCorner,
+}
+
+impl BoundaryArg {
+    /// The rule in the library's terms.
+    pub fn rule(self) -> Option<BoundaryRule> {
+        self.boundary.map(|boundary| match boundary {
+            Boundary::None => BoundaryRule::None,
+            Boundary::EdgeOnly => BoundaryRule::EdgeOnly,
+            Boundary::EdgeAndCorner => BoundaryRule::EdgeAndCorner,
+        })
+    }
 }
 
 /// Which rules the scheme takes.
@@ -55,7 +90,12 @@ pub struct RulesArg {
 impl RulesArg {
     /// How a surface of the only scheme is built.
     pub fn options(&self, scheme: SchemeKind) -> SurfaceOptions {
-        SurfaceOptions { scheme, rules: self.rules.into(), contraction: self.contraction }
+        SurfaceOptions {
+            scheme,
+            rules: self.rules.into(),
+            contraction: self.contraction,
+            ..SurfaceOptions::default()
+        }
     }
 
     /// How a surface of one of several schemes is built: those with one contraction keep it.
@@ -72,7 +112,7 @@ impl RulesArg {
 impl SurfaceArgs {
     /// Scheme and rules in the library's terms.
     pub fn options(&self) -> SurfaceOptions {
-        self.rules.options(self.scheme)
+        SurfaceOptions { boundary: self.boundary.rule(), ..self.rules.options(self.scheme) }
     }
 }
 

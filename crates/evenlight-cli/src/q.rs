@@ -124,13 +124,14 @@ struct Row<'a> {
 
 fn rows(surface: &Surface) -> Vec<Row<'_>> {
     let points = surface.extraordinary_points().iter().enumerate();
+    // Points with Catmull-Clark's rule have none.
     let row = |(k, place)| {
         let rings = surface.rings(k);
-        let q = *rings.quadratic().expect("the scheme has quadratics");
+        let q = *rings.quadratic()?;
         let principal_curvatures = rings.eval(0, 0.0, 0.0).principal_curvatures();
-        Row { place, q, principal_curvatures }
+        Some(Row { place, q, principal_curvatures })
     };
-    points.map(row).collect()
+    points.filter_map(row).collect()
 }
 
 /// The quadratics for people.

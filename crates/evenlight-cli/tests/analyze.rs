@@ -141,6 +141,9 @@ fn centres_of_n_gons_are_points_too() {
 fn open_cages_are_analysed_where_they_have_a_surface() {
     let cone = cage(CONE);
     let output = run(&["analyze", arg(&cone), "--json"]);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    assert_eq!(points(&json(&output)["schemes"][0]).len(), 1);
+    let output = run(&["analyze", arg(&cone), "--json", "--boundary", "none"]);
     assert_eq!(code(&output), 0);
     assert_eq!(points(&json(&output)["schemes"][0]).len(), 1);
     assert_eq!(stderr(&output).matches("left out").count(), 1);

@@ -126,18 +126,21 @@ fn a_reader_that_leaves_early_is_no_error() {
 #[test]
 fn quiet_silences_the_bar_but_no_warning() {
     let cone = cage(CONE);
-    let output = run(&["mesh", arg(&cone), "-o", "-", "--format", "obj", "--quiet"]);
+    let output =
+        run(&["mesh", arg(&cone), "-o", "-", "--format", "obj", "--quiet", "--boundary=none"]);
     assert_eq!(code(&output), 0);
-    let expected = "25 of 45 faces touch a boundary and are left out\n";
+    let expected = "25 of 45 faces are left out (holes, or at the boundary under the rule none)\n";
     assert!(stderr(&output).starts_with("warning: ") && stderr(&output).ends_with(expected));
 }
 
 #[test]
 fn a_cage_without_inner_faces_gives_nothing() {
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-    let output = run_on(square, &["mesh", "-", "-o", "-", "--format", "obj"]);
+    let args = ["mesh", "-", "-o", "-", "--format", "obj", "--boundary", "none"];
+    let output = run_on(square, &args);
     assert_eq!((code(&output), output.stdout.len()), (1, 0));
-    assert!(stderr(&output).contains("all 1 faces touch a boundary"));
+    assert!(stderr(&output).contains("all 1 faces are left out"));
+    assert_eq!(code(&run_on(square, &args[..6])), 0, "it has one by the other rules");
 }
 
 #[test]

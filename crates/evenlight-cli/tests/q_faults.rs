@@ -17,8 +17,13 @@ fn fault(cage_name: &str, text: &str) -> String {
 }
 
 fn fault_on(cage: &Path, text: &str) -> String {
+    fault_by_rule(cage, text, "edge-and-corner")
+}
+
+fn fault_by_rule(cage: &Path, text: &str, boundary: &str) -> String {
     let (_folder, path) = file("q.json", &text.replace("SIX", SIX));
-    let output = run(&["mesh", arg(cage), "-o", "-", "--format", "obj", "--q", arg(&path)]);
+    let args = ["mesh", arg(cage), "-o", "-", "--format", "obj", "--q", arg(&path), "--boundary"];
+    let output = run(&[&args[..], &[boundary]].concat());
     assert_eq!((code(&output), output.stdout.len()), (1, 0), "{text}");
     let all = stderr(&output);
     let last = all.lines().last().unwrap();
@@ -121,12 +126,13 @@ fn points_without_a_surface_are_told_why() {
     let (_folder, path) = file("cage.obj", &with_open_pieces());
     for (place, message) in [
         ("\"vertex\": 8", "vertex 8 is in no face: take one that is"),
-        ("\"vertex\": 9", "all faces at vertex 9 touch a boundary and have no surface"),
-        ("\"vertex\": 10", "vertex 10 is on the boundary, where there is no surface"),
+        ("\"vertex\": 9", "all faces at vertex 9 are left out (holes, or at"),
+        ("\"vertex\": 10", "all faces at vertex 10 are left out (holes, or at"),
         ("\"vertex\": 21", "there is no vertex 21: the cage has the vertices 0 to 20"),
-        ("\"face\": 9", "face 9 touches a boundary and has no surface: take another"),
+        ("\"face\": 9", "face 9 is left out (holes, or at the boundary under the rule none): take"),
     ] {
-        let text = fault_on(&path, &format!("[{{{place}, \"affine\": {{}}}}]"));
+        let text = format!("[{{{place}, \"affine\": {{}}}}]");
+        let text = fault_by_rule(&path, &text, "none");
         assert!(text.starts_with(&format!("entry 1: {message}")), "{text}");
     }
 }

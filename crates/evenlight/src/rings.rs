@@ -31,10 +31,11 @@
 
 use std::sync::{Arc, OnceLock};
 
+use crate::mesh::Fan;
 use crate::net::{CNet, DNet, Expansion, Quadratic};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add, add_scaled, cross, dot, norm, scale, sub, unit};
-use crate::scheme::{Rules, SchemeKind, Subdominant, Variant};
+use crate::scheme::{FanLimit, Rules, SchemeKind, Subdominant, Variant, fan_rules};
 
 /// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
 /// valence.
@@ -43,6 +44,8 @@ pub(crate) struct ValenceRules {
     kind: SchemeKind,
     rules: Rules,
     subdominant: Subdominant,
+    /// Of a fan between sharp edges, not of a scheme.
+    fan: Option<FanLimit>,
 }
 
 impl ValenceRules {
@@ -50,7 +53,19 @@ impl ValenceRules {
     pub(crate) fn new(kind: SchemeKind, variant: Variant, valence: usize) -> Option<Self> {
         let rules = kind.rules(variant, valence)?;
         let subdominant = Subdominant::new(&rules);
-        Some(Self { kind, rules, subdominant })
+        Some(Self { kind, rules, subdominant, fan: None })
+    }
+
+    /// Catmull-Clark's rules of a fan.
+    pub(crate) fn of_fan(shape: Fan) -> Self {
+        let (rules, limit) = fan_rules(shape);
+        let subdominant = Subdominant::without_plane(&rules, limit.lambda);
+        Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
+    }
+
+    /// Whether they are of a fan between sharp edges, which has no turns.
+    pub(crate) fn is_fan(&self) -> bool {
+        self.fan.is_some()
     }
 
     pub(crate) fn kind(&self) -> SchemeKind {
@@ -84,6 +99,8 @@ impl ValenceRules {
 pub struct Rings {
     rules: Arc<ValenceRules>,
     center: Point,
+    /// The normal at the limit point, or NaN.
+    normal: Vector,
     quadratic: Option<Quadratic>,
     frame: Frame,
     /// The net in front of ring 0, in the frame.
@@ -155,6 +172,15 @@ impl Rings {
         Self::start(&net, center, q.map(Quadratic::expansion), rules)
     }
 
+    /// The surface over the net of a fan: two nodes on every line, four in every sector, the vertex.
+    pub(crate) fn over_fan(net: &[Point], rules: Arc<ValenceRules>) -> Option<Self> {
+        let limit = rules.fan.as_ref()?;
+        let (center, normal) = (limit.limit_point(net), limit.normal(net));
+        let nodes = &net[..rules.rules.num_nodes()];
+        let relative: Vec<Vector> = nodes.iter().map(|&p| sub(p, center)).collect();
+        Some(Self { normal, ..Self::start(&relative, center, None, rules) })
+    }
+
     /// The surface of a control net relative to its limit point `center`, with the given or the
     /// default quadratic if the scheme has one.
     fn start(
@@ -175,10 +201,11 @@ impl Rings {
         }
         let quadratic = q.map(|q| Quadratic::from_expansion(center, q));
         let cached = [const { OnceLock::new() }; CACHED_RINGS];
-        Self { rules, center, quadratic, frame, first, cached }
+        let normal = if frame.has_plane { frame.axes[2] } else { [f64::NAN; 3] };
+        Self { rules, center, normal, quadratic, frame, first, cached }
     }
 
-    /// The valence.
+    /// The number of sectors: the valence, or of a fan the number of its faces.
     pub fn valence(&self) -> usize {
         self.rules.rules.valence
     }
@@ -206,7 +233,7 @@ impl Rings {
 
     /// The unit normal at the limit point; NaN if there is no tangent plane.
     pub fn normal(&self) -> Vector {
-        if self.frame.has_plane { self.frame.axes[2] } else { [f64::NAN; 3] }
+        self.normal
     }
 
     /// The number of patches in each sector of a ring.
@@ -258,6 +285,17 @@ impl Rings {
     /// polynomial is extrapolated if (a,b) is not in the patch.
     pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
         self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring, self.sigma())))
+    }
+
+    /// Parameters of a sector as those of the hole in front of ring `ring`, the hole being the unit
+    /// square.
+    pub(crate) fn in_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
+        at.map(|x| scaled_up(x, ring, self.sigma()))
+    }
+
+    /// The inverse of [`Rings::in_hole`].
+    pub(crate) fn out_of_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
+        at.map(|x| (0..ring).fold(x, |x, _| self.sigma() * x))
     }
 
     /// A patch at (A,B) = (a,b) / sigma^ring.

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use evenlight::mesh::isolation::{self, Place};
+use evenlight::mesh::isolation::Place;
 use evenlight::net::Quadratic;
 use evenlight::point::{dot, sub};
+use evenlight::surface::PointRule;
 use evenlight::{FaceId, Surface, Vector, VertexId};
 
 use super::file::{self, Change, Entry};
 use crate::error::{Failure, warn};
-use crate::input::Source;
+use crate::input::{Source, WHY_OMITTED};
 
 /// The quadratics of a file, or none.
 #[derive(Clone, Debug, Default)]
@@ -64,12 +65,17 @@ impl Edits {
 
 /// The new quadratic of a point.
 fn quadratic(surface: &Surface, point: usize, change: &Change) -> Result<Quadratic, String> {
-    let valence = surface.extraordinary_points()[point].valence;
+    let place = &surface.extraordinary_points()[point];
+    let valence = place.valence;
+    let Some(default) = surface.rings(point).quadratic() else {
+        let reason = match place.rule {
+            PointRule::CatmullClark(reason) => reason.to_string(),
+            PointRule::Scheme => "no quadratic".to_owned(),
+        };
+        return Err(format!("the point has Catmull-Clark's rule ({reason}), which has no q"));
+    };
     let q = match change {
-        Change::Affine { matrix, translation } => {
-            let default = surface.rings(point).quadratic();
-            moved(default.expect("the scheme has quadratics"), *matrix, *translation)
-        }
+        Change::Affine { matrix, translation } => moved(default, *matrix, *translation),
         Change::Coefficients(coefs) => Quadratic { coefs: *coefs },
         Change::Sectors(sectors) if sectors.len() == valence => Quadratic::from_proposals(sectors),
         Change::Sectors(sectors) => {
@@ -113,13 +119,10 @@ fn not_a_vertex(surface: &Surface, vertex: VertexId) -> String {
     if !topology.is_used(vertex) {
         return format!("vertex {v} is in no face: take one that is");
     }
-    if topology.is_boundary(vertex) {
-        return format!("vertex {v} is on the boundary, where there is no surface: take another");
+    if topology.ring(vertex).all(|h| surface.is_omitted(topology.face(h))) {
+        return format!("all faces at vertex {v} are left out ({WHY_OMITTED}): take another");
     }
-    match topology.valence(vertex) {
-        4 => format!("vertex {v} has valence 4: {ONLY_EXTRAORDINARY}"),
-        _ => format!("all faces at vertex {v} touch a boundary and have no surface: take another"),
-    }
+    format!("vertex {v} has valence {}: {ONLY_EXTRAORDINARY}", topology.valence(vertex))
 }
 
 fn not_a_face(surface: &Surface, face: FaceId) -> String {
@@ -131,8 +134,7 @@ fn not_a_face(surface: &Surface, face: FaceId) -> String {
     if cage.topology().faces().corners(face).len() == 4 {
         return format!("face {f} is a quad: {ONLY_EXTRAORDINARY}");
     }
-    debug_assert!(isolation::is_omitted(cage.topology(), face), "or it would have been found");
-    format!("face {f} touches a boundary and has no surface: take another")
+    format!("face {f} is left out ({WHY_OMITTED}): take another")
 }
 
 const ONLY_EXTRAORDINARY: &str = "only extraordinary vertices, and centres of faces that are no \

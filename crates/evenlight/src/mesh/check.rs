@@ -5,7 +5,9 @@
 //! * there are faces, and each has three corners or more, all different vertices that exist;
 //! * every coordinate is a finite number;
 //! * every edge has one face, or two that run through it in opposite directions;
-//! * the faces around every vertex form one fan.
+//! * the faces around every vertex form one fan;
+//! * tags are on edges, vertices and faces that exist, and sharpness is 0 or more;
+//! * every primvar has finite values of one to four numbers, as many as it needs.
 //!
 //! ```text
 //!   three faces on      opposite           two fans at v
@@ -21,10 +23,15 @@
 //! A vertex in no face is no fault: it is reported and ignored. Nothing is asked of the shape:
 //! faces may be degenerate, pass through each other or lie upon each other.
 
+mod primvars;
+
+pub use primvars::PrimvarFault;
+
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::sharpness::half_edges_of;
 use super::{
-    CheckError, FaceId, Faces, Mesh, MeshError, Primvar, Tags, Topology, VertexId, Warning,
+    CheckError, FaceId, Faces, Mesh, MeshError, Primvar, Tagged, Tags, Topology, VertexId, Warning,
 };
 use crate::point::Point;
 
@@ -48,9 +55,13 @@ impl Cage {
     ///
     /// All faults of one step; later steps assume that the earlier found none:
     /// 1. the numbers of vertices and faces (0 faces, 2^32 or more of either),
-    /// 2. positions, and each face for itself,
+    /// 2. positions, each face and each primvar for itself,
     /// 3. edges,
-    /// 4. the fans of vertices.
+    /// 4. the fans of vertices,
+    /// 5. the tags.
+    ///
+    /// A crease between vertices that are no neighbours is refused, though OpenSubdiv passes over
+    /// it: it is a fault of whoever wrote the tags, and the surface is not the one meant.
     ///
     /// ```
     /// use evenlight::mesh::{Cage, Mesh};
@@ -66,6 +77,10 @@ impl Cage {
             return Err(CheckError { errors });
         }
         let topology = connect(&mesh.faces, mesh.positions.len())?;
+        let errors = tag_faults(&topology, &mesh.tags);
+        if !errors.is_empty() {
+            return Err(CheckError { errors });
+        }
         let warnings = warnings(&topology);
         let Mesh { positions, tags, primvars, .. } = mesh;
         Ok(Self { positions, topology, tags, primvars, warnings })
@@ -149,6 +164,7 @@ fn own_faults(mesh: &Mesh, max_count: usize) -> Vec<MeshError> {
     if errors.is_empty() {
         errors.extend(position_faults(&mesh.positions));
         errors.extend(face_faults(&mesh.faces, mesh.positions.len()));
+        errors.extend(primvars::faults(mesh));
     }
     errors
 }
@@ -198,6 +214,30 @@ fn corner_fault(
         }
     }
     None
+}
+
+/// Tags on what is not there, and sharpness that is none.
+fn tag_faults(topology: &Topology, tags: &Tags) -> Vec<MeshError> {
+    let has_vertex = |v: VertexId| v.index() < topology.num_vertices();
+    let has_edge = |edge: [VertexId; 2]| {
+        edge.into_iter().all(has_vertex) && half_edges_of(topology, edge).next().is_some()
+    };
+    let creases =
+        tags.creases.iter().map(|c| (Tagged::Edge(c.edge), has_edge(c.edge), c.sharpness));
+    let corners = tags.corners.iter();
+    let corners = corners.map(|c| (Tagged::Vertex(c.vertex), has_vertex(c.vertex), c.sharpness));
+    let holes = tags.holes.iter();
+    let holes = holes.map(|&f| (Tagged::Face(f), f.index() < topology.faces().len(), 0.0));
+    let fault = |(what, exists, sharpness): (Tagged, bool, f64)| {
+        if !exists {
+            Some(MeshError::UnknownTag { what })
+        } else if sharpness.is_nan() || sharpness < 0.0 {
+            Some(MeshError::Sharpness { what, sharpness })
+        } else {
+            None
+        }
+    };
+    creases.chain(corners).chain(holes).filter_map(fault).collect()
 }
 
 /// Connects the faces, each of which is sound for itself.
@@ -304,6 +344,7 @@ impl DisjointSets {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{Corner, Crease};
 
     /// The faults of a mesh with these faces, over points that do not matter.
     fn faults(num_vertices: usize, faces: &[&[u32]]) -> Vec<MeshError> {
@@ -444,6 +485,23 @@ mod tests {
         // Four corners in another cyclic order are another face.
         let found = faults(4, &[&[0, 1, 2, 3], &[0, 1, 3, 2]]);
         assert!(found.iter().all(|e| matches!(e, MeshError::InconsistentOrientation { .. })));
+    }
+
+    #[test]
+    fn tags_on_what_is_not_there_are_refused() {
+        let mut mesh = Mesh::new(vec![[0.0; 3]; 8], CUBE);
+        let crease = |a, b, sharpness| Crease { edge: [a, b].map(VertexId), sharpness };
+        mesh.tags.creases = vec![crease(1, 0, 2.0), crease(0, 6, 1.0), crease(0, 8, 1.0)];
+        mesh.tags.creases.push(crease(2, 3, -0.5));
+        mesh.tags.corners = vec![Corner { vertex: VertexId(9), sharpness: f64::NAN }];
+        mesh.tags.holes = vec![FaceId(5), FaceId(6)];
+        let found = Cage::new(mesh).unwrap_err().errors;
+        let edge = |a, b| Tagged::Edge([a, b].map(VertexId));
+        let unknown = [edge(0, 6), edge(0, 8)].map(|what| MeshError::UnknownTag { what });
+        assert_eq!(found[..2], unknown);
+        assert_eq!(found[2], MeshError::Sharpness { what: edge(2, 3), sharpness: -0.5 });
+        let [vertex, face] = [Tagged::Vertex(VertexId(9)), Tagged::Face(FaceId(6))];
+        assert_eq!(found[3..], [vertex, face].map(|what| MeshError::UnknownTag { what }));
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use super::{FaceId, VertexId};
+use super::{FaceId, PrimvarFault, VertexId};
 use crate::point::Point;
 
 /// One fault of a mesh.
@@ -83,6 +83,48 @@ pub enum MeshError {
         /// The vertex.
         vertex: VertexId,
     },
+    /// A sharp edge or vertex, or a hole, that is not in the mesh.
+    UnknownTag {
+        /// What it is said to be.
+        what: Tagged,
+    },
+    /// Sharpness that is negative or NaN.
+    Sharpness {
+        /// Of what.
+        what: Tagged,
+        /// The sharpness.
+        sharpness: f64,
+    },
+    /// A primvar has not what it needs.
+    Primvar {
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        fault: PrimvarFault,
+    },
+}
+
+/// What a tag is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tagged {
+    /// An edge, for a crease.
+    Edge([VertexId; 2]),
+    /// A vertex, for a corner.
+    Vertex(VertexId),
+    /// A face, for a hole.
+    Face(FaceId),
+}
+
+impl Tagged {
+    fn describe(self, names: &dyn Names) -> String {
+        match self {
+            Self::Edge([v, w]) => {
+                format!("the edge of vertices {} and {}", names.vertex(v), names.vertex(w))
+            }
+            Self::Vertex(v) => format!("vertex {}", names.vertex(v)),
+            Self::Face(f) => format!("face {}", names.face(f)),
+        }
+    }
 }
 
 impl MeshError {
@@ -146,6 +188,16 @@ impl MeshError {
                  each fan has its own",
                 vertex(v)
             ),
+            Self::UnknownTag { what } => format!(
+                "{} is {}, but it is not in the mesh: correct or delete the tag",
+                what.describe(names),
+                if matches!(what, Tagged::Face(_)) { "a hole" } else { "sharp" }
+            ),
+            Self::Sharpness { what, sharpness } => format!(
+                "{} has sharpness {sharpness}: give it one from 0 (smooth) to 10 (sharp for ever)",
+                what.describe(names)
+            ),
+            Self::Primvar { name, fault } => format!("primvar `{name}`: {fault}"),
         }
     }
 }
@@ -251,7 +303,7 @@ impl Names for LibraryNumbers {
 }
 
 /// The names of the first few of `items`, and how many follow.
-fn list<T>(items: &[T], name: impl Fn(&T) -> String) -> String {
+pub(super) fn list<T>(items: &[T], name: impl Fn(&T) -> String) -> String {
     /// Enough to find the place; a pole may have thousands.
     const SHOWN: usize = 5;
     let mut text = items.iter().take(SHOWN).map(name).collect::<Vec<_>>().join(", ");
@@ -303,6 +355,8 @@ mod tests {
             (MeshError::InconsistentOrientation { edge, faces }, "flip one of them"),
             (MeshError::EdgeWithManyFaces { edge, faces: faces.to_vec() }, "delete the others"),
             (MeshError::VertexNotAFan { vertex }, "split the vertex"),
+            (MeshError::UnknownTag { what: Tagged::Edge(edge) }, "delete the tag"),
+            (MeshError::Sharpness { what: Tagged::Vertex(vertex), sharpness: -1.0 }, "from 0"),
         ] {
             let text = fault.to_string();
             let (_, advice) = text.split_once(": ").unwrap();

@@ -1,14 +1,10 @@
 //! Isolation: which piece of surface covers which part of every face.
 //!
-//! An extraordinary point is *isolated* at the refinement level at which it is surrounded by
-//! two rings of quads with regular direct and diagonal neighbours (a c-net). Faces are refined
-//! only where that is needed:
-//!
-//! - a vertex is isolated at level 0 if its neighbours allow it; else at level 1 if all its
-//!   faces are quads; else at level 2;
-//! - the centre of an n-gon becomes a vertex at level 1, isolated there if the corners of the
-//!   n-gon are regular, else at level 2;
-//! - a face with four regular vertices is one bi-3 patch of level 0, whatever happens around.
+//! A face of quads is a bi-3 patch if its four corners are regular: inner vertices of valence 4,
+//! or on a regular crease, or corners of one face ([`Fan::is_regular`]). Any other vertex is
+//! *isolated* at the refinement level at which nothing at it changes any more and two rings of
+//! faces around it are regular; then it is an extraordinary point and the faces around it are its
+//! sectors. What is neither is refined, locally:
 //!
 //! ```text
 //!   face with one isolated      face whose corner is isolated     a quad beside an n-gon:
@@ -20,87 +16,120 @@
 //!   e-----------+               e-----+-----+                     +-----+-----+
 //! ```
 //!
+//! Without semi-sharp features two levels are enough, one if there are quads only. A semi-sharp
+//! edge or vertex takes as many more as it is sharp, at most ten; its faces are refined along it,
+//! and when it has become smooth the points around it are those of a smooth surface.
+//!
 //! All levels describe one surface, so pieces of different levels join as smoothly as pieces
-//! of the same. Topology only: nothing here knows positions.
+//! of the same. Topology and sharpness only: nothing here knows positions.
 
-use super::refine::Level;
-use super::{FaceId, HalfEdgeId, Topology, VertexId};
+use std::collections::HashMap;
+
+use super::fan::{Features, PlacedFan, sectors};
+use super::nets::RegularNet;
+use super::refine::{Level, Origin};
+use super::sharpness::{Sharpness, half_edges_of};
+use super::{
+    BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, Topology, VertexId, VertexRule,
+};
 
 /// The place of an extraordinary point in the cage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Place {
-    /// An interior vertex of valence other than 4.
+    /// A vertex.
     Vertex(VertexId),
     /// The centre of a face with other than four corners.
     FaceCentre(FaceId),
 }
 
 /// An extraordinary point before any surface is made.
+///
+/// A vertex on sharp edges is one point for each fan that is not regular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Extraordinary {
     /// Where it is.
     pub place: Place,
     /// The number of edges that meet there.
     pub valence: usize,
-    /// The level of refinement (0, 1 or 2) at which it is isolated.
+    /// The faces that it concerns.
+    pub fan: Fan,
+    /// The level of refinement at which it is isolated.
     pub level: usize,
-    /// Whether some face around it has a surface.
+    /// Whether some face of the fan has a surface; if not, nothing is known of the level.
     pub is_covered: bool,
+    /// Whether there was something semi-sharp at the vertex, which has gone.
+    pub was_semi_sharp: bool,
 }
 
-/// All extraordinary points, vertices first, each kind in the order of its numbers.
-pub fn extraordinary_points(topology: &Topology) -> Vec<Extraordinary> {
-    let vertices = (0..topology.num_vertices() as u32).map(VertexId);
-    let vertices = vertices.filter(|&v| is_extraordinary(topology, v)).map(|v| Extraordinary {
-        place: Place::Vertex(v),
-        valence: topology.valence(v),
-        level: vertex_level(topology, v),
-        is_covered: topology.ring(v).any(|h| !is_omitted(topology, topology.face(h))),
-    });
-    let ngons = topology.faces().ids().filter(|&f| topology.faces().corners(f).len() != 4);
-    let centres = ngons.map(|f| Extraordinary {
-        place: Place::FaceCentre(f),
-        valence: topology.faces().corners(f).len(),
-        level: centre_level(topology, f),
-        is_covered: !is_omitted(topology, f),
-    });
+/// All extraordinary points, vertices first, each kind in the order of its numbers; those without
+/// a surface around them, which only their valence makes extraordinary, at the end.
+pub fn extraordinary_points(cage: &Cage, boundary: BoundaryRule) -> Vec<Extraordinary> {
+    let mut points = Plan::new(cage, boundary).points;
+    points.extend(uncovered_points(cage, boundary));
+    points
+}
+
+fn uncovered_points(cage: &Cage, boundary: BoundaryRule) -> Vec<Extraordinary> {
+    let t = cage.topology();
+    let omitted = omitted_faces(cage, boundary);
+    let is_omitted = |f: FaceId| omitted.binary_search(&f).is_ok();
+    let point = |place: Place, valence: usize| Extraordinary {
+        place,
+        valence,
+        fan: Fan { faces: valence, is_closed: true, has_dart: false, rule: VertexRule::Smooth },
+        level: 0,
+        is_covered: false,
+        was_semi_sharp: false,
+    };
+    let vertices = (0..t.num_vertices() as u32).map(VertexId);
+    let vertices = vertices
+        .filter(|&v| t.is_used(v) && !t.is_boundary(v) && t.valence(v) != 4)
+        .filter(|&v| t.ring(v).all(|h| is_omitted(t.face(h))))
+        .map(|v| point(Place::Vertex(v), t.valence(v)));
+    let centres = t.faces().ids().zip(t.faces().iter());
+    let centres = centres
+        .filter(|&(f, corners)| corners.len() != 4 && is_omitted(f))
+        .map(|(f, corners)| point(Place::FaceCentre(f), corners.len()));
     vertices.chain(centres).collect()
 }
 
-/// Whether no surface is made over a face: it touches the boundary.
-pub fn is_omitted(topology: &Topology, face: FaceId) -> bool {
-    topology.faces().corners(face).iter().any(|&v| topology.is_boundary(v))
+/// Whether no surface is made over a face, see [`omitted_faces`]. Takes time linear in the size of
+/// the cage.
+pub fn is_omitted(cage: &Cage, boundary: BoundaryRule, face: FaceId) -> bool {
+    omitted_faces(cage, boundary).binary_search(&face).is_ok()
 }
 
-fn is_extraordinary(topology: &Topology, v: VertexId) -> bool {
-    topology.is_used(v) && !topology.is_boundary(v) && topology.valence(v) != 4
-}
-
-/// Whether all faces around `v` are quads.
-fn has_quads(topology: &Topology, v: VertexId) -> bool {
-    topology.ring(v).all(|h| topology.faces().corners(topology.face(h)).len() == 4)
-}
-
-/// Whether `v` is an inner vertex of a regular grid.
-fn is_regular(topology: &Topology, v: VertexId) -> bool {
-    !topology.is_boundary(v) && topology.valence(v) == 4 && has_quads(topology, v)
-}
-
-fn vertex_level(topology: &Topology, v: VertexId) -> usize {
-    if !has_quads(topology, v) {
-        return 2;
+/// The faces without a surface, in order: holes, and under the rule "none" those with a vertex on
+/// the boundary, unless both boundary edges there have been made infinitely sharp.
+pub fn omitted_faces(cage: &Cage, boundary: BoundaryRule) -> Vec<FaceId> {
+    let mut omitted = cage.tags().holes.clone();
+    if boundary == BoundaryRule::None {
+        let is_open = open_vertices(cage);
+        let faces = cage.topology().faces();
+        let touches = |f: &FaceId| faces.corners(*f).iter().any(|v| is_open[v.index()]);
+        omitted.extend(faces.ids().filter(touches));
     }
-    let neighbours = |h: HalfEdgeId| {
-        let face = topology.faces().corners(topology.face(h));
-        (1..=2).map(move |k| face[(topology.corner(h) + k) % 4])
-    };
-    let isolated = topology.ring(v).flat_map(neighbours).all(|w| is_regular(topology, w));
-    usize::from(!isolated)
+    omitted.sort_unstable();
+    omitted.dedup();
+    omitted
 }
 
-fn centre_level(topology: &Topology, f: FaceId) -> usize {
-    let regular = |&v: &VertexId| !topology.is_boundary(v) && topology.valence(v) == 4;
-    if topology.faces().corners(f).iter().all(regular) { 1 } else { 2 }
+/// Whether each vertex is at an edge of the boundary that no tag makes infinitely sharp.
+fn open_vertices(cage: &Cage) -> Vec<bool> {
+    let topology = cage.topology();
+    let mut is_sharp = vec![false; topology.half_edges().len()];
+    for crease in &cage.tags().creases {
+        for h in half_edges_of(topology, crease.edge) {
+            is_sharp[h.index()] = crease.sharpness >= INFINITELY_SHARP;
+        }
+    }
+    let mut is_open = vec![false; topology.num_vertices()];
+    let boundary = topology.half_edges().filter(|&h| topology.twin(h).is_none());
+    for h in boundary.filter(|h| !is_sharp[h.index()]) {
+        is_open[topology.origin(h).index()] = true;
+        is_open[topology.target(h).index()] = true;
+    }
+    is_open
 }
 
 /// What covers a part of a parametric quad.
@@ -123,14 +152,6 @@ pub(crate) enum Piece {
     Split(u32),
 }
 
-/// The control net of a regular piece: the refinement level and the 4x4 vertices, the index
-/// along v fastest.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RegularNet {
-    pub(crate) level: u8,
-    pub(crate) vertices: [VertexId; 16],
-}
-
 /// A sector of a point and the parametric quad, depth and corner at which it lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SectorPlace {
@@ -145,8 +166,10 @@ pub(crate) struct SectorPlace {
 /// All pieces of a surface.
 #[derive(Debug)]
 pub(crate) struct Plan {
-    /// The refined parts of the cage: level 1 and, if needed, level 2.
+    /// The refined parts of the cage: levels 1, 2, ...
     pub(crate) levels: Vec<Level>,
+    /// The sharpness of the cage and of all levels.
+    pub(crate) sharpness: Vec<Sharpness>,
     /// The points with a surface around them.
     pub(crate) points: Vec<Extraordinary>,
     /// The half-edge of its level that leaves each point in front of sector 0.
@@ -162,85 +185,67 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    pub(crate) fn new(cage: &Topology) -> Self {
-        let points: Vec<Extraordinary> =
-            extraordinary_points(cage).into_iter().filter(|p| p.is_covered).collect();
-        let levels = refined_levels(cage, &points);
-        let mut planner = Planner::new(cage, &levels, &points);
-        for face in cage.faces().ids() {
-            planner.add_face(face);
+    pub(crate) fn new(cage: &Cage, boundary: BoundaryRule) -> Self {
+        let t = cage.topology();
+        let omitted = omitted_faces(cage, boundary);
+        let mut sharpness = vec![Sharpness::new(t, cage.tags(), boundary)];
+        let mut levels: Vec<Level> = Vec::new();
+        let mut planner = Planner::new(t);
+        let mut split = planner.cover_cage(&Features::new(t, &sharpness[0]), &omitted);
+        // Ends after twelve levels at most: ten until nothing is semi-sharp any more, one until
+        // all faces are quads, one until points are apart.
+        while !split.is_empty() {
+            let (coarse, coarse_sharpness) = (topology_of(t, &levels), sharpness.last());
+            let coarse_sharpness = coarse_sharpness.expect("that of the cage is the first");
+            let faces = split.iter().map(|tile| tile.face);
+            let chosen = neighbourhood(coarse, faces, coarse_sharpness.is_averaged());
+            let level = Level::refine(coarse, &chosen);
+            let fine_sharpness = level.sharpness(coarse, coarse_sharpness);
+            let tiles = planner.split(coarse, &level, &split);
+            levels.push(level);
+            sharpness.push(fine_sharpness);
+            let last = sharpness.last().expect("one was put there");
+            let features = Features::new(topology_of(t, &levels), last);
+            split = planner.cover_tiles(&features, &levels, tiles);
         }
-        let Planner { first_half_edges, sectors, first_quads, pieces, nets, omitted, .. } = planner;
-        let first_half_edges = first_half_edges
-            .into_iter()
-            .map(|h| h.expect("a covered point has a face with a surface"))
-            .collect();
-        Self { levels, points, first_half_edges, sectors, first_quads, pieces, nets, omitted }
+        for point in &mut planner.points {
+            if let Place::Vertex(v) = point.place {
+                point.was_semi_sharp = sharpness[0].is_semi_sharp_at(t, v);
+            }
+        }
+        planner.finish(levels, sharpness, omitted)
     }
 
     /// The connectivity of a level.
     pub(crate) fn topology<'a>(&'a self, cage: &'a Topology, level: usize) -> &'a Topology {
-        if level == 0 { cage } else { self.levels[level - 1].topology() }
+        topology_of(cage, &self.levels[..level])
+    }
+
+    /// The fan of a point, at the level at which it is isolated.
+    pub(crate) fn placed_fan(&self, point: usize) -> PlacedFan {
+        PlacedFan { shape: self.points[point].fan, first: self.first_half_edges[point] }
     }
 }
 
-/// Refines what must be refined: the faces that are split, and all faces that touch them,
-/// since control nets reach one face further.
-fn refined_levels(cage: &Topology, points: &[Extraordinary]) -> Vec<Level> {
-    let split = faces_to_split(cage, points);
-    if !split.contains(&true) {
-        return Vec::new();
-    }
-    let first = Level::refine(cage, &with_neighbours(cage, &split));
-    let deep = faces_to_split_again(cage, points, &first);
-    if !deep.contains(&true) {
-        return vec![first];
-    }
-    let second = Level::refine(first.topology(), &with_neighbours(first.topology(), &deep));
-    vec![first, second]
+/// The connectivity of the last of these levels.
+fn topology_of<'a>(cage: &'a Topology, levels: &'a [Level]) -> &'a Topology {
+    levels.last().map_or(cage, Level::topology)
 }
 
-/// The faces of the cage that are not one piece: n-gons, faces beside n-gons, faces at vertices
-/// that are not isolated at level 0.
-fn faces_to_split(cage: &Topology, points: &[Extraordinary]) -> Vec<bool> {
-    let mut split = vec![false; cage.faces().len()];
-    let mut split_ring = |v: VertexId| {
-        cage.ring(v).for_each(|h| split[cage.face(h).index()] = true);
-    };
-    for point in points.iter().filter(|p| p.level > 0) {
-        match point.place {
-            Place::Vertex(v) => split_ring(v),
-            Place::FaceCentre(f) => cage.faces().corners(f).iter().for_each(|&v| split_ring(v)),
-        }
+/// The faces to refine so that all is known around the children of `faces`: those that share a
+/// vertex with them, since control nets reach one face further; and one face more if the
+/// sharpness of edges depends on their neighbours.
+fn neighbourhood(
+    topology: &Topology,
+    faces: impl Iterator<Item = FaceId>,
+    is_averaged: bool,
+) -> Vec<bool> {
+    let mut chosen = vec![false; topology.faces().len()];
+    faces.for_each(|f| chosen[f.index()] = true);
+    for _ in 0..if is_averaged { 2 } else { 1 } {
+        chosen = with_neighbours(topology, &chosen);
     }
-    // An n-gon at the boundary has no surface, but its inner vertices are not regular.
-    for f in cage.faces().ids().filter(|&f| cage.faces().corners(f).len() != 4) {
-        cage.faces().corners(f).iter().for_each(|&v| split_ring(v));
-    }
-    for f in cage.faces().ids() {
-        split[f.index()] &= !is_omitted(cage, f);
-    }
-    split
-}
-
-/// The faces of level 1 at the points that are isolated at level 2 only.
-fn faces_to_split_again(cage: &Topology, points: &[Extraordinary], first: &Level) -> Vec<bool> {
-    let mut split = vec![false; first.topology().faces().len()];
-    for point in points.iter().filter(|p| p.level == 2) {
-        let mut split_child = |f: FaceId, k: usize| {
-            if !is_omitted(cage, f) {
-                let child = first.child(f, k).expect("faces that are split have children");
-                split[child.index()] = true;
-            }
-        };
-        match point.place {
-            Place::Vertex(v) => {
-                cage.ring(v).for_each(|h| split_child(cage.face(h), cage.corner(h)));
-            }
-            Place::FaceCentre(f) => (0..point.valence).for_each(|k| split_child(f, k)),
-        }
-    }
-    split
+    chosen
 }
 
 /// The chosen faces and all that share a vertex with them.
@@ -254,9 +259,11 @@ fn with_neighbours(topology: &Topology, chosen: &[bool]) -> Vec<bool> {
     all
 }
 
-/// A face of some level and the square of a parametric quad that it covers.
+/// A face of some level, the square of a parametric quad that it covers, and the piece that is to
+/// cover it.
 #[derive(Clone, Copy, Debug)]
 struct Tile {
+    piece: u32,
     level: usize,
     face: FaceId,
     quad: u32,
@@ -264,33 +271,32 @@ struct Tile {
     size: f64,
 }
 
-struct Planner<'a> {
-    cage: &'a Topology,
-    levels: &'a [Level],
-    points: &'a [Extraordinary],
-    /// The number of the point at every vertex and at every face's centre.
-    at_vertex: Vec<u32>,
-    at_centre: Vec<u32>,
-    first_half_edges: Vec<Option<HalfEdgeId>>,
+/// What is known of a corner of a face.
+#[derive(Clone, Copy, Debug)]
+enum Corner {
+    /// The face may be a bi-3 patch.
+    Regular,
+    /// The sector of a point.
+    Isolated { point: u32, sector: u32 },
+    /// To be refined.
+    Unsettled,
+}
+
+struct Planner {
+    points: Vec<Extraordinary>,
+    /// The place of every point among those at the same vertex.
+    orders: Vec<usize>,
+    first_half_edges: Vec<HalfEdgeId>,
     sectors: Vec<Vec<SectorPlace>>,
     first_quads: Vec<u32>,
     pieces: Vec<Piece>,
     nets: Vec<RegularNet>,
-    omitted: Vec<FaceId>,
+    /// The corners of the level in hand that are not inner vertices of a regular, smooth grid.
+    corners: HashMap<HalfEdgeId, Corner>,
 }
 
-const NONE: u32 = u32::MAX;
-
-impl<'a> Planner<'a> {
-    fn new(cage: &'a Topology, levels: &'a [Level], points: &'a [Extraordinary]) -> Self {
-        let mut at_vertex = vec![NONE; cage.num_vertices()];
-        let mut at_centre = vec![NONE; cage.faces().len()];
-        for (number, point) in points.iter().enumerate() {
-            match point.place {
-                Place::Vertex(v) => at_vertex[v.index()] = number as u32,
-                Place::FaceCentre(f) => at_centre[f.index()] = number as u32,
-            }
-        }
+impl Planner {
+    fn new(cage: &Topology) -> Self {
         let quads =
             |corners: &[VertexId]| if corners.len() == 4 { 1 } else { corners.len() as u32 };
         let mut first_quads = vec![0];
@@ -300,180 +306,207 @@ impl<'a> Planner<'a> {
         }));
         let num_quads = first_quads[cage.faces().len()] as usize;
         Self {
-            cage,
-            levels,
-            points,
-            at_vertex,
-            at_centre,
-            first_half_edges: vec![None; points.len()],
-            sectors: vec![Vec::new(); points.len()],
+            points: Vec::new(),
+            orders: Vec::new(),
+            first_half_edges: Vec::new(),
+            sectors: Vec::new(),
             first_quads,
             pieces: vec![Piece::Omitted; num_quads],
             nets: Vec::new(),
-            omitted: Vec::new(),
+            corners: HashMap::new(),
         }
     }
 
-    fn topology(&self, level: usize) -> &'a Topology {
-        if level == 0 { self.cage } else { self.levels[level - 1].topology() }
+    /// Covers what needs no refinement; returns the other faces.
+    fn cover_cage(&mut self, features: &Features, omitted: &[FaceId]) -> Vec<Tile> {
+        let faces = features.topology.faces();
+        let mut split = Vec::new();
+        let mut omitted = omitted.iter().peekable();
+        for (face, corners) in faces.ids().zip(faces.iter()) {
+            if omitted.next_if_eq(&&face).is_some() {
+                continue;
+            }
+            let quad = self.first_quads[face.index()];
+            let tile = Tile { piece: quad, level: 0, face, quad, origin: [0.0; 2], size: 1.0 };
+            if corners.len() != 4 || !self.cover(features, &[], tile) {
+                split.push(tile);
+            }
+        }
+        split
     }
 
-    fn add_face(&mut self, face: FaceId) {
-        if is_omitted(self.cage, face) {
-            self.omitted.push(face);
-            return;
-        }
-        let quad = self.first_quads[face.index()];
-        let corners = self.cage.faces().corners(face).len();
-        let whole = Tile { level: 0, face, quad, origin: [0.0; 2], size: 1.0 };
-        if corners == 4 {
-            self.pieces[quad as usize] = self.face_piece(whole);
-            return;
-        }
-        for k in 0..corners {
-            let child = self.child(0, face, k);
-            let quad = quad + k as u32;
-            let tile = Tile { level: 1, face: child, quad, ..whole };
-            // The extraordinary points are at corner 0, the vertex, and corner 2, the centre.
-            let points = [self.point_at_corner(face, k), NONE, self.at_centre[face.index()], NONE];
-            self.pieces[quad as usize] = self.refined_piece(tile, points);
-        }
+    /// Covers what needs no refinement; returns the other tiles.
+    fn cover_tiles(
+        &mut self,
+        features: &Features,
+        levels: &[Level],
+        tiles: Vec<Tile>,
+    ) -> Vec<Tile> {
+        self.corners.clear();
+        tiles.into_iter().filter(|&tile| !self.cover(features, levels, tile)).collect()
     }
 
-    fn child(&self, level: usize, face: FaceId, k: usize) -> FaceId {
-        self.levels[level].child(face, k).expect("faces that are split have children")
-    }
-
-    fn point_at_corner(&self, face: FaceId, k: usize) -> u32 {
-        self.at_vertex[self.cage.faces().corners(face)[k].index()]
-    }
-
-    /// The piece of a whole quad of the cage.
-    fn face_piece(&mut self, tile: Tile) -> Piece {
-        let corners = self.cage.faces().corners(tile.face);
-        if corners.iter().all(|&v| is_regular(self.cage, v)) {
-            return self.regular(tile);
-        }
-        let isolated = (0..4).find(|&k| {
-            let point = self.point_at_corner(tile.face, k);
-            point != NONE && self.points[point as usize].level == 0
-        });
-        if let Some(corner) = isolated {
-            return self.sector(tile, self.point_at_corner(tile.face, corner), corner);
-        }
-        let points = [0, 1, 2, 3].map(|k| self.point_at_corner(tile.face, k));
-        self.split(tile, |k| {
-            let mut at = [NONE; 4];
-            at[k] = points[k];
-            at
-        })
-    }
-
-    /// The piece of a quad of level 1 or 2 with these extraordinary points at its corners.
-    fn refined_piece(&mut self, tile: Tile, points: [u32; 4]) -> Piece {
-        let Some(corner) = (0..4).find(|&k| points[k] != NONE) else { return self.regular(tile) };
-        let point = points[corner];
-        if self.points[point as usize].level == tile.level {
-            return self.sector(tile, point, corner);
-        }
-        self.split(tile, |k| {
-            let mut at = [NONE; 4];
-            at[k] = points[k];
-            at
-        })
-    }
-
-    fn split(&mut self, tile: Tile, points: impl Fn(usize) -> [u32; 4]) -> Piece {
-        let first = self.pieces.len();
-        self.pieces.extend([Piece::Omitted; 4]);
-        for (k, [du, dv]) in CORNERS.into_iter().enumerate() {
-            let size = 0.5 * tile.size;
-            let child = Tile {
+    /// The children of tiles.
+    fn split(&mut self, coarse: &Topology, level: &Level, tiles: &[Tile]) -> Vec<Tile> {
+        let mut children = Vec::with_capacity(4 * tiles.len());
+        for &tile in tiles {
+            let num_corners = coarse.faces().corners(tile.face).len();
+            let child = |k: usize| Tile {
                 level: tile.level + 1,
-                face: self.child(tile.level, tile.face, k),
-                origin: [tile.origin[0] + du * size, tile.origin[1] + dv * size],
-                size,
+                face: level.child(tile.face, k).expect("faces that are split have children"),
                 ..tile
             };
-            self.pieces[first + k] = self.refined_piece(child, points(k));
+            if num_corners != 4 {
+                // Every corner of an n-gon is a parametric quad.
+                let quad = |k: usize| tile.quad + k as u32;
+                let of = |k: usize| Tile { piece: quad(k), quad: quad(k), ..child(k) };
+                children.extend((0..num_corners).map(of));
+                continue;
+            }
+            let first = self.pieces.len() as u32;
+            self.pieces.extend([Piece::Omitted; 4]);
+            self.pieces[tile.piece as usize] = Piece::Split(first);
+            let size = 0.5 * tile.size;
+            children.extend(CORNERS.into_iter().enumerate().map(|(k, [du, dv])| Tile {
+                piece: first + k as u32,
+                origin: [tile.origin[0] + du * size, tile.origin[1] + dv * size],
+                size,
+                ..child(k)
+            }));
         }
-        Piece::Split(first as u32)
+        children
     }
 
-    fn regular(&mut self, tile: Tile) -> Piece {
-        let topology = self.topology(tile.level);
-        let vertices = regular_net(topology, topology.half_edge(tile.face, 0));
-        self.nets.push(RegularNet { level: tile.level as u8, vertices });
+    /// Covers a tile with one piece, if that can be.
+    fn cover(&mut self, features: &Features, levels: &[Level], tile: Tile) -> bool {
+        let t = features.topology;
+        let mut isolated = None;
+        let mut is_smooth = true;
+        for k in 0..4 {
+            let h = t.half_edge(tile.face, k);
+            if features.is_regular(t.origin(h)) {
+                continue;
+            }
+            is_smooth = false;
+            match self.corner(features, levels, h) {
+                Corner::Regular => {}
+                Corner::Isolated { point, sector } => isolated = Some((point, sector, k)),
+                Corner::Unsettled => return false,
+            }
+        }
+        let piece = match isolated {
+            Some((point, sector, corner)) => self.sector(tile, point, sector, corner),
+            None => self.regular(features, tile, is_smooth),
+        };
+        self.pieces[tile.piece as usize] = piece;
+        true
+    }
+
+    /// What is known of the corner that `h` leaves, found once for all of its fan.
+    fn corner(&mut self, features: &Features, levels: &[Level], h: HalfEdgeId) -> Corner {
+        if let Some(&known) = self.corners.get(&h) {
+            return known;
+        }
+        let v = features.topology.origin(h);
+        let fan = features.has_quads(v).then(|| features.fan(h)).flatten();
+        let Some(fan) = fan else {
+            self.corners.insert(h, Corner::Unsettled);
+            return Corner::Unsettled;
+        };
+        let of_sector = if fan.shape.is_regular() {
+            |_, _| Corner::Regular
+        } else if features.is_isolated(fan) {
+            self.add_point(features, levels, fan);
+            |point, sector| Corner::Isolated { point, sector }
+        } else {
+            |_, _| Corner::Unsettled
+        };
+        let point = self.points.len().saturating_sub(1) as u32;
+        for (s, h) in sectors(features.topology, fan).enumerate() {
+            self.corners.insert(h, of_sector(point, s as u32));
+        }
+        self.corners[&h]
+    }
+
+    fn add_point(&mut self, features: &Features, levels: &[Level], fan: PlacedFan) {
+        let t = features.topology;
+        let v = t.origin(fan.first);
+        self.points.push(Extraordinary {
+            place: place(levels, v),
+            valence: t.valence(v),
+            fan: fan.shape,
+            level: levels.len(),
+            is_covered: true,
+            was_semi_sharp: false,
+        });
+        self.orders.push(t.ring(v).position(|h| h == fan.first).unwrap_or(0));
+        self.first_half_edges.push(fan.first);
+        self.sectors.push(Vec::new());
+    }
+
+    fn sector(&mut self, tile: Tile, point: u32, sector: u32, corner: usize) -> Piece {
+        let Tile { quad, origin, size, .. } = tile;
+        let place = SectorPlace { sector: sector as usize, quad, origin, size, corner };
+        self.sectors[point as usize].push(place);
+        Piece::Sector { point, sector, corner: corner as u8 }
+    }
+
+    fn regular(&mut self, features: &Features, tile: Tile, is_smooth: bool) -> Piece {
+        let t = features.topology;
+        let h = t.half_edge(tile.face, 0);
+        let net = if is_smooth {
+            RegularNet::smooth(t, h, tile.level)
+        } else {
+            let edge = |k: usize| features.sharpness.edge(t, t.half_edge(tile.face, k));
+            let sharp = [0, 1, 2, 3].map(|k| edge(k) > 0.0);
+            RegularNet::with_sharp_sides(t, h, tile.level, sharp)
+        };
+        self.nets.push(net);
         Piece::Regular(self.nets.len() as u32 - 1)
     }
 
-    fn sector(&mut self, tile: Tile, point: u32, corner: usize) -> Piece {
-        let topology = self.topology(tile.level);
-        let h = topology.half_edge(tile.face, corner);
-        let mut ring = topology.ring(topology.origin(h));
-        let first = ring.clone().next().expect("the vertex has this sector");
-        self.first_half_edges[point as usize] = Some(first);
-        let sector = ring.position(|other| other == h).expect("h leaves the vertex");
-        let Tile { quad, origin, size, .. } = tile;
-        let place = SectorPlace { sector, quad, origin, size, corner };
-        self.sectors[point as usize].push(place);
-        Piece::Sector { point, sector: sector as u32, corner: corner as u8 }
+    /// The plan, with the points in the order of their places.
+    fn finish(self, levels: Vec<Level>, sharpness: Vec<Sharpness>, omitted: Vec<FaceId>) -> Plan {
+        let Self { points, orders, first_half_edges, mut sectors, .. } = self;
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by_key(|&p| (points[p].place, orders[p]));
+        let mut number = vec![0; points.len()];
+        order.iter().zip(0..).for_each(|(&p, new)| number[p] = new);
+        let mut pieces = self.pieces;
+        for piece in &mut pieces {
+            if let Piece::Sector { point, .. } = piece {
+                *point = number[*point as usize];
+            }
+        }
+        Plan {
+            levels,
+            sharpness,
+            points: order.iter().map(|&p| points[p]).collect(),
+            first_half_edges: order.iter().map(|&p| first_half_edges[p]).collect(),
+            sectors: order.iter().map(|&p| std::mem::take(&mut sectors[p])).collect(),
+            first_quads: self.first_quads,
+            pieces,
+            nets: self.nets,
+            omitted,
+        }
     }
+}
+
+/// Where a vertex of the last of these levels comes from.
+///
+/// Vertices that refinement puts on edges and into quads are regular as soon as nothing at them
+/// is semi-sharp, so a point comes from a vertex of the cage or from an n-gon.
+fn place(levels: &[Level], v: VertexId) -> Place {
+    let mut v = v;
+    for level in levels.iter().rev() {
+        match level.origin(v) {
+            Origin::Vertex(coarse) => v = coarse,
+            Origin::Face(f) => return Place::FaceCentre(f),
+            Origin::Edge(_) => unreachable!("vertices on edges are regular once they are settled"),
+        }
+    }
+    Place::Vertex(v)
 }
 
 /// The corners of the unit square in the order of a face's corners.
 pub(crate) const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-
-/// The 4x4 control net of a face with regular vertices, `h` leaving its corner 0.
-///
-/// Each of the four faces that touch a corner of the face only gives four nodes:
-///
-/// ```text
-///  v ^  3--7-11-15
-///    |  2--6-10-14      node (i,j) is number 4 i + j, i along u;
-///    |  1--5--9-13      the face itself is 5 9 10 6
-///    |  0--4--8-12 -> u
-/// ```
-fn regular_net(t: &Topology, h: HalfEdgeId) -> [VertexId; 16] {
-    let across = |h: HalfEdgeId| t.twin(h).expect("edges at regular vertices are interior");
-    let forward_u = |h| t.next(across(t.next(h)));
-    let back_u = |h| t.previous(across(t.previous(h)));
-    let forward_v = |h| across(t.next(t.next(h)));
-    let back_v = |h| t.next(t.next(across(h)));
-    let mut net = [VertexId(0); 16];
-    let mut put = |h: HalfEdgeId, i: usize, j: usize| {
-        let (mut h, places) = (h, [4 * i + j, 4 * (i + 1) + j, 4 * (i + 1) + j + 1, 4 * i + j + 1]);
-        for place in places {
-            net[place] = t.origin(h);
-            h = t.next(h);
-        }
-    };
-    put(back_v(back_u(h)), 0, 0);
-    put(back_v(forward_u(h)), 2, 0);
-    put(forward_v(back_u(h)), 0, 2);
-    put(forward_v(forward_u(h)), 2, 2);
-    net
-}
-
-/// The vertices of a c-net, per sector in the order (0,1), (0,2), (1,1), (1,2), (2,1), (2,2),
-/// around an isolated vertex; `first` leaves it in front of sector 0.
-pub(crate) fn cnet_vertices(t: &Topology, first: HalfEdgeId) -> Vec<[VertexId; 6]> {
-    let across = |h: HalfEdgeId| t.twin(h).expect("edges around an isolated vertex are interior");
-    let forward_a = |h| t.next(across(t.next(h)));
-    let forward_b = |h| across(t.next(t.next(h)));
-    let upper_left = |h| t.origin(t.previous(h));
-    let upper_right = |h| t.target(t.next(h));
-    t.ring(t.origin(first))
-        .map(|h| {
-            let (right, above) = (forward_a(h), forward_b(h));
-            [
-                upper_left(h),
-                upper_left(above),
-                upper_right(h),
-                upper_right(above),
-                upper_right(right),
-                upper_right(forward_b(right)),
-            ]
-        })
-        .collect()
-}

@@ -5,16 +5,24 @@
 //! ([`Topology`]) can be walked without a case that fails. Everything behind the cage is
 //! total: it cannot meet bad input any more.
 
+pub(crate) mod channel;
 mod check;
+mod fan;
 mod fault;
+pub mod fix;
 pub mod isolation;
+mod nets;
 mod refine;
+mod sharpness;
 mod tags;
 mod topology;
 
-pub use check::Cage;
-pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Warning};
+pub use check::{Cage, PrimvarFault};
+pub use fan::Fan;
+pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
+pub(crate) use nets::{cnet_vertices, fan_vertices};
+pub use sharpness::VertexRule;
 pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,
     Primvar, Tags,

@@ -11,18 +11,24 @@
 //!   v0 --- E0 --- v1
 //! ```
 //!
+//! The rules are those for smooth surfaces, creases and corners ([`VertexRule`]); sharpness is
+//! refined along with the positions.
+//!
 //! Only the chosen faces have children, so the finer mesh has a border where the coarse one
 //! goes on. Where the chosen part touches itself in a single vertex, the finer mesh has one
 //! vertex per fan there.
 
+use super::sharpness::{Sharpness, Spoke, VertexRule, fraction};
 use super::{FaceId, Faces, HalfEdgeId, Topology, VertexId};
-use crate::point::{Point, add_scaled};
 
 /// Where a refined vertex comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Origin {
+pub(crate) enum Origin {
+    /// A vertex.
     Vertex(VertexId),
+    /// An edge, named by the lower of its half-edges.
     Edge(HalfEdgeId),
+    /// A face.
     Face(FaceId),
 }
 
@@ -70,26 +76,69 @@ impl Level {
         (first != NONE).then(|| FaceId(first + k as u32))
     }
 
-    /// The positions of the refined vertices, from those of the coarse mesh.
+    /// Where a refined vertex comes from.
+    pub(crate) fn origin(&self, v: VertexId) -> Origin {
+        self.origins[v.index()]
+    }
+
+    /// The sharpness of the refined part, from that of the coarse mesh.
+    pub(crate) fn sharpness(&self, coarse: &Topology, sharpness: &Sharpness) -> Sharpness {
+        if sharpness.is_empty() {
+            return Sharpness::default();
+        }
+        let mut edges = Vec::with_capacity(self.topology.half_edges().len());
+        for face in coarse.faces().ids().filter(|&f| self.child(f, 0).is_some()) {
+            let size = coarse.faces().corners(face).len();
+            for k in 0..size {
+                let h = coarse.half_edge(face, k);
+                let (v, before) = (coarse.origin(h), coarse.previous(h));
+                let half = |h: HalfEdgeId| sharpness.child_edge(coarse, h, v);
+                let mut child = [half(h), 0.0, 0.0, half(before)];
+                if size == 4 {
+                    child.rotate_right(k);
+                }
+                edges.extend(child);
+            }
+        }
+        self.mark_cuts(coarse, &mut edges);
+        let vertices = self.origins.iter().map(|&origin| match origin {
+            Origin::Vertex(v) => sharpness.child_vertex(v),
+            _ => 0.0,
+        });
+        sharpness.refined(edges, vertices.collect())
+    }
+
+    /// Where this part ends and the surface does not, sharpness is unknown.
+    fn mark_cuts(&self, coarse: &Topology, edges: &mut [f64]) {
+        let t = &self.topology;
+        for h in t.half_edges().filter(|&h| t.twin(h).is_none()) {
+            let edge = [t.origin(h), t.target(h)].into_iter().find_map(|v| match self.origin(v) {
+                Origin::Edge(edge) => Some(edge),
+                _ => None,
+            });
+            if edge.is_some_and(|edge| coarse.twin(edge).is_some()) {
+                edges[h.index()] = f64::NAN;
+            }
+        }
+    }
+
+    /// The values of the refined vertices, from those of the coarse mesh: positions, or whatever
+    /// goes by the same rules.
     ///
-    /// `coarse_is_cut` tells that the coarse mesh is itself a refined part: then its border is
-    /// no boundary of the surface, and what would need the faces beyond is NaN, to be noticed
-    /// if ever it were used.
-    pub(crate) fn positions(
+    /// If the coarse mesh is itself a refined part, what would need the faces beyond its end is
+    /// NaN, to be noticed if ever it were used.
+    pub(crate) fn values<const N: usize>(
         &self,
         coarse: &Topology,
-        positions: &[Point],
-        coarse_is_cut: bool,
-    ) -> Vec<Point> {
-        let masks = Masks { coarse, positions };
-        let unknown = |v: VertexId| coarse_is_cut && coarse.is_boundary(v);
+        sharpness: &Sharpness,
+        values: &[[f64; N]],
+    ) -> Vec<[f64; N]> {
+        let masks = Masks { coarse, sharpness, values };
         self.origins
             .iter()
             .map(|&origin| match origin {
                 Origin::Face(f) => masks.face(f),
-                Origin::Edge(h) if coarse_is_cut && coarse.twin(h).is_none() => [f64::NAN; 3],
                 Origin::Edge(h) => masks.edge(h),
-                Origin::Vertex(v) if unknown(v) => [f64::NAN; 3],
                 Origin::Vertex(v) => masks.vertex(v),
             })
             .collect()
@@ -161,58 +210,134 @@ impl Builder<'_> {
     }
 }
 
-/// The refinement masks of Catmull-Clark, with the boundary rule "edge and corner": boundary
-/// curves are cubic splines of the boundary vertices, a vertex with a single face stays.
-struct Masks<'a> {
+/// The refinement masks of Catmull-Clark with creases and corners.
+struct Masks<'a, const N: usize> {
     coarse: &'a Topology,
-    positions: &'a [Point],
+    sharpness: &'a Sharpness,
+    values: &'a [[f64; N]],
 }
 
-impl Masks<'_> {
-    fn at(&self, v: VertexId) -> Point {
-        self.positions[v.index()]
+impl<const N: usize> Masks<'_, N> {
+    fn at(&self, v: VertexId) -> [f64; N] {
+        self.values[v.index()]
     }
 
-    fn face(&self, f: FaceId) -> Point {
+    fn face(&self, f: FaceId) -> [f64; N] {
         mean(self.coarse.faces().corners(f).iter().map(|&v| self.at(v)))
     }
 
-    fn edge(&self, h: HalfEdgeId) -> Point {
+    fn edge(&self, h: HalfEdgeId) -> [f64; N] {
+        let sharpness = self.sharpness.edge(self.coarse, h);
+        if sharpness == 0.0 {
+            return self.smooth_edge(h);
+        }
+        if sharpness.is_nan() {
+            return [f64::NAN; N];
+        }
+        let ends = [self.coarse.origin(h), self.coarse.target(h)];
+        let middle = mean(ends.map(|v| self.at(v)));
+        // Averaging may keep both halves sharp, though the edge is below 1; or end one of them,
+        // though it is above: then OpenSubdiv goes beyond the middle, and so do we.
+        let stays = || ends.iter().all(|&v| self.sharpness.child_edge(self.coarse, h, v) > 0.0);
+        if stays() {
+            return middle;
+        }
+        blend(sharpness, middle, self.smooth_edge(h))
+    }
+
+    fn smooth_edge(&self, h: HalfEdgeId) -> [f64; N] {
         let ends = [self.at(self.coarse.origin(h)), self.at(self.coarse.target(h))];
         let Some(twin) = self.coarse.twin(h) else { return mean(ends) };
         mean(ends.into_iter().chain([h, twin].map(|h| self.face(self.coarse.face(h)))))
     }
 
-    /// (Q + 2 R + (n-3) S) / n with the means Q of the face points, R of the edge midpoints.
-    fn vertex(&self, v: VertexId) -> Point {
-        if self.coarse.is_boundary(v) {
-            return self.boundary_vertex(v);
+    fn vertex(&self, v: VertexId) -> [f64; N] {
+        if self.sharpness.is_empty() {
+            let is_cut = self.coarse.is_boundary(v);
+            return if is_cut { [f64::NAN; N] } else { self.smooth_vertex(v) };
         }
+        if !self.is_touched(v) {
+            return self.smooth_vertex(v);
+        }
+        let spokes = self.sharpness.spokes(self.coarse, v);
+        let vertex = self.sharpness.vertex(v);
+        let rule = rule_of(vertex, spokes.iter().map(|spoke| spoke.sharpness));
+        if spokes.iter().any(|spoke| spoke.sharpness.is_nan()) {
+            return [f64::NAN; N];
+        }
+        let now = self.by_rule(v, rule, &spokes);
+        if rule == VertexRule::Smooth {
+            return now;
+        }
+        let child_vertex = self.sharpness.child_vertex(v);
+        let child = self.sharpness.child_spokes(&spokes);
+        let next_rule = rule_of(child_vertex, child.iter().copied());
+        if next_rule == rule {
+            return now;
+        }
+        let after: Vec<Spoke> = spokes
+            .iter()
+            .zip(&child)
+            .map(|(spoke, &sharpness)| Spoke { sharpness, ..*spoke })
+            .collect();
+        let changes = spokes.iter().zip(&after).map(|(a, b)| [a.sharpness, b.sharpness]);
+        let weight = fraction(changes.chain([[vertex, child_vertex]]));
+        blend(weight, now, self.by_rule(v, next_rule, &after))
+    }
+
+    /// Whether `v` or an edge at it is sharp, or its edges are not all known.
+    fn is_touched(&self, v: VertexId) -> bool {
+        let edge = |h| self.sharpness.edge(self.coarse, h);
+        self.sharpness.vertex(v) != 0.0
+            || self.coarse.is_boundary(v)
+            || self.coarse.ring(v).any(|h| edge(h) != 0.0)
+    }
+
+    fn by_rule(&self, v: VertexId, rule: VertexRule, spokes: &[Spoke]) -> [f64; N] {
+        match rule {
+            VertexRule::Smooth => self.smooth_vertex(v),
+            VertexRule::Corner => self.at(v),
+            VertexRule::Crease => {
+                let mut sum = self.at(v).map(|x| 0.75 * x);
+                for spoke in spokes.iter().filter(|spoke| spoke.sharpness > 0.0) {
+                    add_scaled(&mut sum, 0.125, self.at(spoke.end));
+                }
+                sum
+            }
+        }
+    }
+
+    /// (Q + 2 R + (n-3) S) / n with the means Q of the face points, R of the edge midpoints.
+    fn smooth_vertex(&self, v: VertexId) -> [f64; N] {
         let n = self.coarse.num_sectors(v) as f64;
-        let mut sum = crate::point::scale((n - 2.0) / n, self.at(v));
+        let mut sum = self.at(v).map(|x| (n - 2.0) / n * x);
         for h in self.coarse.ring(v) {
             add_scaled(&mut sum, 1.0 / (n * n), self.face(self.coarse.face(h)));
             add_scaled(&mut sum, 1.0 / (n * n), self.at(self.coarse.target(h)));
         }
         sum
     }
+}
 
-    fn boundary_vertex(&self, v: VertexId) -> Point {
-        if self.coarse.num_sectors(v) == 1 {
-            return self.at(v);
-        }
-        let mut ring = self.coarse.ring(v);
-        let first = ring.next().expect("a boundary vertex has a face");
-        let last = self.coarse.previous(ring.last().unwrap_or(first));
-        let mut sum = crate::point::scale(0.75, self.at(v));
-        add_scaled(&mut sum, 0.125, self.at(self.coarse.target(first)));
-        add_scaled(&mut sum, 0.125, self.at(self.coarse.origin(last)));
-        sum
+fn rule_of(vertex: f64, edges: impl Iterator<Item = f64>) -> VertexRule {
+    VertexRule::of(vertex, edges.filter(|&s| s > 0.0).count())
+}
+
+fn add_scaled<const N: usize>(sum: &mut [f64; N], w: f64, p: [f64; N]) {
+    for (s, x) in sum.iter_mut().zip(p) {
+        *s += w * x;
     }
 }
 
-fn mean(points: impl IntoIterator<Item = Point>) -> Point {
-    let (mut sum, mut count) = ([0.0; 3], 0.0);
+/// w a + (1 - w) b.
+fn blend<const N: usize>(w: f64, a: [f64; N], b: [f64; N]) -> [f64; N] {
+    let mut sum = a.map(|x| w * x);
+    add_scaled(&mut sum, 1.0 - w, b);
+    sum
+}
+
+fn mean<const N: usize>(points: impl IntoIterator<Item = [f64; N]>) -> [f64; N] {
+    let (mut sum, mut count) = ([0.0; N], 0.0);
     for p in points {
         add_scaled(&mut sum, 1.0, p);
         count += 1.0;
@@ -224,6 +349,7 @@ fn mean(points: impl IntoIterator<Item = Point>) -> Point {
 mod tests {
     use super::*;
     use crate::mesh::Mesh;
+    use crate::point::Point;
 
     const CUBE: [&[u32]; 6] =
         [&[0, 3, 2, 1], &[4, 5, 6, 7], &[0, 1, 5, 4], &[1, 2, 6, 5], &[2, 3, 7, 6], &[3, 0, 4, 7]];
@@ -241,7 +367,7 @@ mod tests {
     fn a_refined_cube_is_the_known_one() {
         let (cube, positions) = cube();
         let level = Level::refine(&cube, &[true; 6]);
-        let refined = level.positions(&cube, &positions, false);
+        let refined = level.values(&cube, &Sharpness::default(), &positions);
         assert_eq!((refined.len(), level.topology().faces().len()), (26, 24));
         // A corner moves by (1,1,1) * 2/9: n = 3, Q + 2 R + 0 S = (1/6 + 2/6...) by hand 2/9.
         let child = level.child(FaceId(0), 0).unwrap();
@@ -268,7 +394,7 @@ mod tests {
     fn children_keep_the_orientation_of_their_parent() {
         let (cube, positions) = cube();
         let level = Level::refine(&cube, &[true; 6]);
-        let refined = level.positions(&cube, &positions, false);
+        let refined = level.values(&cube, &Sharpness::default(), &positions);
         let centroid = |f: FaceId| {
             mean(level.topology().faces().corners(f).iter().map(|v| refined[v.index()]))
         };

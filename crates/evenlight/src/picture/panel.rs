@@ -208,13 +208,17 @@ fn copy(picture: &mut Picture, [left, top]: [usize; 2], tile: &Tile, colors: &[[
 mod tests {
     use super::super::View;
     use super::*;
-    use crate::mesh::{Cage, Mesh};
+    use crate::mesh::{BoundaryRule, Cage, Mesh};
     use crate::scheme::SchemeKind;
     use crate::surface::SurfaceOptions;
 
     fn surface(mesh: Mesh) -> Surface {
-        let options =
-            SurfaceOptions { scheme: SchemeKind::CatmullClark, ..SurfaceOptions::default() };
+        // The splines below go on beyond the faces of their inner vertices.
+        let options = SurfaceOptions {
+            scheme: SchemeKind::CatmullClark,
+            boundary: Some(BoundaryRule::None),
+            ..SurfaceOptions::default()
+        };
         Surface::build(Cage::new(mesh).unwrap(), options).unwrap()
     }
 

@@ -27,6 +27,7 @@ const CLAY: [u8; 3] = [142, 157, 178];
 const REGULAR: [u8; 3] = [134, 190, 132];
 const ODD_RING: [u8; 3] = [240, 190, 84];
 const EVEN_RING: [u8; 3] = [212, 98, 78];
+const CAP: [u8; 3] = [120, 130, 210];
 const BORDER: [u8; 3] = [38, 44, 52];
 
 /// The width of patch borders in pixels, and the size of patches (in pixels) below which they
@@ -136,6 +137,7 @@ fn role_color(role: Role) -> [u8; 3] {
         Role::Regular => REGULAR,
         Role::Ring(k) if k % 2 == 1 => ODD_RING,
         Role::Ring(_) => EVEN_RING,
+        Role::Cap => CAP,
     }
 }
 
@@ -154,7 +156,7 @@ const SKY: Light = [0.40, 0.42, 0.45];
 const GROUND: Light = [0.19, 0.185, 0.18];
 
 /// A material of colour `albedo` with a satin gloss in the light of the studio, at normal `n`.
-fn studio(albedo: Light, n: Vector) -> Light {
+pub(super) fn studio(albedo: Light, n: Vector) -> Light {
     let mut light = mix(GROUND, SKY, 0.5 + 0.5 * n[1]);
     for lamp in [&KEY, &FILL, &RIM] {
         let amount = diffuse(lamp, n);

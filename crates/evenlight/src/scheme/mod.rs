@@ -6,6 +6,7 @@
 mod catmull_clark;
 mod contraction;
 mod evolving_guide;
+mod fan;
 mod guided;
 mod quadratic_attraction;
 mod rules;
@@ -14,6 +15,7 @@ mod subdominant;
 mod tables;
 
 pub use contraction::{Contraction, ContractionError, Variant};
+pub(crate) use fan::{FanLimit, rules as fan_rules};
 pub(crate) use guided::{guide_monomials, sampled_guide};
 pub(crate) use rules::Rules;
 pub(crate) use subdominant::Subdominant;
@@ -157,6 +159,15 @@ impl SchemeKind {
     /// or of the guide. With `guided6` it is continuous.
     pub fn has_center_curvature(self) -> bool {
         self.has_quadratic() || self.guided_degree().is_some()
+    }
+
+    /// The degree of the rings in both parameters.
+    pub fn degree(self) -> usize {
+        let of_spline = match self.spline() {
+            Some(Spline::BiQuartic) => 4,
+            Some(Spline::BiCubic) | None => 3,
+        };
+        self.guided_degree().unwrap_or(of_spline)
     }
 
     /// The degree of the rings of guided subdivision.

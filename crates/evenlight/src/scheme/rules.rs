@@ -45,6 +45,9 @@ pub(crate) struct Rules {
     /// How many nodes each sector owns.
     pub(crate) nodes_per_sector: usize,
     /// The new nodes of sector 0 from the old net.
+    ///
+    /// A fan does not commute with turning: its rows, and its patches, are those of all sectors,
+    /// and all its nodes count as those of one.
     pub(crate) refine: Vec<Row>,
     /// The degree of the patches in both parameters.
     pub(crate) degree: usize,
@@ -117,7 +120,13 @@ pub(crate) struct PatchRule {
 impl Rules {
     /// The number of nodes of a net.
     pub(crate) fn num_nodes(&self) -> usize {
-        self.valence * self.nodes_per_sector
+        self.turns() * self.nodes_per_sector
+    }
+
+    /// How many sectors have the same rules but for a turn: all, or if each has rules of its own
+    /// (a fan), one.
+    fn turns(&self) -> usize {
+        if self.patches.len() == self.patches_per_sector() { self.valence } else { 1 }
     }
 
     /// The number of nodes per sector without those of q or of the guide.
@@ -176,7 +185,7 @@ impl Rules {
     /// The refined net A x.
     pub(crate) fn refine(&self, net: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut refined = Vec::with_capacity(net.len());
-        for s in 0..self.valence {
+        for s in 0..self.turns() {
             let turned = Turned { net, by: s * self.nodes_per_sector };
             refined.extend(self.refine.iter().map(|row| turned.apply(row)));
         }
@@ -185,7 +194,7 @@ impl Rules {
 
     /// The number of patches in each sector of a ring.
     pub(crate) fn patches_per_sector(&self) -> usize {
-        self.patches.len()
+        3 * self.split * self.split
     }
 
     /// Where rings are cut, if not in halves.
@@ -262,9 +271,12 @@ impl Rules {
         old: &[[f64; 3]],
         new: &[[f64; 3]],
     ) -> Vec<[f64; 3]> {
-        let by = s * self.nodes_per_sector;
+        let (by, own) = match self.turns() {
+            1 => (0, s * self.patches_per_sector()),
+            _ => (s * self.nodes_per_sector, 0),
+        };
         let (old, new) = (Turned { net: old, by }, Turned { net: new, by });
-        let rule = &self.patches[which];
+        let rule = &self.patches[own + which];
         let rows = rule.old.iter().zip(&rule.new);
         rows.map(|(a, b)| add(old.apply(a), new.apply(b))).collect()
     }

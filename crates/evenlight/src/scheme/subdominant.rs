@@ -55,10 +55,15 @@ impl Subdominant {
             return Self::of_linear_terms(rules, lambda);
         }
         if rules.valence < 3 {
-            let none = vec![[0.0; 2]; rules.num_nodes()];
-            return Self { lambda: 0.25, part: Part::Fourier { right: none.clone(), left: none } };
+            return Self::without_plane(rules, 0.25);
         }
         Self::of_fourier_block(rules)
+    }
+
+    /// Nothing is tangential.
+    pub(crate) fn without_plane(rules: &Rules, lambda: f64) -> Self {
+        let none = vec![[0.0; 2]; rules.num_nodes()];
+        Self { lambda, part: Part::Fourier { right: none.clone(), left: none } }
     }
 
     fn of_linear_terms(rules: &Rules, lambda: f64) -> Self {

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::place::from_sector_parameters;
-use super::{ExtraordinaryPoint, QuadId, Sector, SurfaceOptions};
-use crate::mesh::isolation::{Place, Plan, cnet_vertices};
-use crate::mesh::{Cage, VertexId};
+use super::{ExtraordinaryPoint, PointRule, QuadId, Sector, SurfaceOptions};
+use crate::mesh::isolation::{Extraordinary, Place, Plan};
+use crate::mesh::{Cage, Fan, VertexId, cnet_vertices, fan_vertices};
 use crate::net::CNet;
 use crate::point::Point;
 use crate::rings::{Rings, ValenceRules};
-use crate::scheme::{ContractionError, RuleSet, SchemeKind, Variant};
+use crate::scheme::{ContractionError, SchemeKind, Variant};
 
 /// Why no surface could be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -19,42 +19,20 @@ pub enum SurfaceError {
     /// The scheme has no such contraction.
     #[error(transparent)]
     Contraction(#[from] ContractionError),
-    /// The scheme has no rules for the valence of these points.
+    /// Not even Catmull-Clark has rules for the valence of these points.
     #[error(
-        "scheme {} has {}rules for valences {}, but {}; {}",
-        scheme.name(),
-        if variant.rules == RuleSet::Published { "published " } else { "" },
-        scheme.valences(*variant),
-        list_places(points),
-        advice(*scheme, variant.rules, points)
+        "there are rules for valences up to {MAX_VALENCE}, but {}; \
+         split such a vertex or face into several of lower valence",
+        list_places(points)
     )]
     NoRules {
         /// The points and their valences.
         points: Vec<(Place, usize)>,
-        /// The scheme.
-        scheme: SchemeKind,
-        /// Its tables and contraction.
-        variant: Variant,
     },
 }
 
-/// What to do about points without rules.
-fn advice(scheme: SchemeKind, rules: RuleSet, points: &[(Place, usize)]) -> String {
-    let mut ways = Vec::new();
-    if points.iter().any(|&(_, valence)| valence > 2) {
-        ways.push("split such a vertex or face into several of lower valence");
-    }
-    if points.iter().any(|&(_, valence)| valence == 2) {
-        ways.push("dissolve vertices with two edges into their faces");
-    }
-    if rules == RuleSet::Published {
-        ways.push("use the generated rules");
-    }
-    if scheme != SchemeKind::CatmullClark {
-        ways.push("use scheme cc");
-    }
-    ways.join(", or ")
-}
+/// The highest valence of Catmull-Clark's rules.
+const MAX_VALENCE: usize = 1024;
 
 /// The points of an error message, at most eight of them.
 fn list_places(points: &[(Place, usize)]) -> String {
@@ -73,25 +51,39 @@ fn list_places(points: &[(Place, usize)]) -> String {
     names.join(", ")
 }
 
-pub(super) fn rules_by_valence(
+/// The rules of every point, shared by all that are alike.
+pub(super) fn rules_of_points(
+    cage: &Cage,
     plan: &Plan,
     options: SurfaceOptions,
-) -> Result<BTreeMap<usize, Arc<ValenceRules>>, SurfaceError> {
-    let (scheme, variant) = (options.scheme, options.variant());
-    scheme.check_contraction(options.contraction)?;
-    let without = plan.points.iter().filter(|p| !scheme.has_rules(variant, p.valence));
+) -> Result<Vec<(PointRule, Arc<ValenceRules>)>, SurfaceError> {
+    options.scheme.check_contraction(options.contraction)?;
+    let without = plan.points.iter().filter(|p| p.fan.faces > MAX_VALENCE);
     let points: Vec<_> = without.map(|p| (p.place, p.valence)).collect();
     if !points.is_empty() {
-        return Err(SurfaceError::NoRules { points, scheme, variant });
+        return Err(SurfaceError::NoRules { points });
     }
-    let mut rules = BTreeMap::new();
-    for point in &plan.points {
-        rules.entry(point.valence).or_insert_with(|| {
-            let rules = ValenceRules::new(scheme, variant, point.valence);
-            Arc::new(rules.expect("has_rules was asked before"))
-        });
+    let mut made: BTreeMap<Fan, Arc<ValenceRules>> = BTreeMap::new();
+    let of_point = |point: &Extraordinary| {
+        let rule = PointRule::of(cage, point, options);
+        let rules =
+            made.entry(point.fan).or_insert_with(|| Arc::new(make(rule, point.fan, options)));
+        (rule, rules.clone())
+    };
+    Ok(plan.points.iter().map(of_point).collect())
+}
+
+fn make(rule: PointRule, fan: Fan, options: SurfaceOptions) -> ValenceRules {
+    if !fan.is_smooth() {
+        return ValenceRules::of_fan(fan);
     }
-    Ok(rules)
+    let rules = match rule {
+        PointRule::Scheme => ValenceRules::new(options.scheme, options.variant(), fan.faces),
+        PointRule::CatmullClark(_) => {
+            ValenceRules::new(SchemeKind::CatmullClark, Variant::default(), fan.faces)
+        }
+    };
+    rules.expect("has_rules was asked before, and Catmull-Clark has all")
 }
 
 pub(super) fn refined_positions(cage: &Cage, plan: &Plan) -> Vec<Vec<Point>> {
@@ -99,13 +91,31 @@ pub(super) fn refined_positions(cage: &Cage, plan: &Plan) -> Vec<Vec<Point>> {
     for (k, level) in plan.levels.iter().enumerate() {
         let coarse = refined.last().map_or(cage.positions(), Vec::as_slice);
         let topology = plan.topology(cage.topology(), k);
-        refined.push(level.positions(topology, coarse, k > 0));
+        refined.push(level.values(topology, &plan.sharpness[k], coarse));
     }
     refined
 }
 
+/// The rings around a point, over its net at the level at which it is isolated.
+pub(super) fn rings(
+    cage: &Cage,
+    plan: &Plan,
+    refined: &[Vec<Point>],
+    point: usize,
+    rules: &Arc<ValenceRules>,
+) -> Rings {
+    if plan.points[point].fan.is_smooth() {
+        return Rings::with_rules(&gather(cage, plan, refined, point), rules.clone(), None);
+    }
+    let level = plan.points[point].level;
+    let positions = if level == 0 { cage.positions() } else { &refined[level - 1] };
+    let net = fan_vertices(plan.topology(cage.topology(), level), plan.placed_fan(point));
+    let net: Vec<Point> = net.into_iter().map(|v| positions[v.index()]).collect();
+    Rings::over_fan(&net, rules.clone()).expect("these are the rules of a fan")
+}
+
 /// The c-net of a point, at the level at which it is isolated.
-pub(super) fn gather(cage: &Cage, plan: &Plan, refined: &[Vec<Point>], point: usize) -> CNet {
+fn gather(cage: &Cage, plan: &Plan, refined: &[Vec<Point>], point: usize) -> CNet {
     let level = plan.points[point].level;
     let positions = if level == 0 { cage.positions() } else { &refined[level - 1] };
     let topology = plan.topology(cage.topology(), level);
@@ -117,7 +127,12 @@ pub(super) fn gather(cage: &Cage, plan: &Plan, refined: &[Vec<Point>], point: us
     }
 }
 
-pub(super) fn describe(plan: &Plan, point: usize, rings: &Rings) -> ExtraordinaryPoint {
+pub(super) fn describe(
+    plan: &Plan,
+    point: usize,
+    rule: PointRule,
+    rings: &Rings,
+) -> ExtraordinaryPoint {
     let found = plan.points[point];
     let mut sectors: Vec<Sector> = plan.sectors[point]
         .iter()
@@ -141,6 +156,8 @@ pub(super) fn describe(plan: &Plan, point: usize, rings: &Rings) -> Extraordinar
         vertex,
         face,
         valence: found.valence,
+        fan: found.fan,
+        rule,
         level: found.level,
         position: rings.center(),
         normal: rings.normal(),

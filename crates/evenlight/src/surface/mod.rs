@@ -16,22 +16,28 @@
 //! parameters; all pieces are parts of one surface.
 
 mod build;
+mod caps;
 mod place;
+mod primvar;
+mod rule;
 
 pub use build::SurfaceError;
 pub use place::{PatchPlace, PlacedPatch, Role};
+pub use primvar::PrimvarJet;
+pub use rule::{PointRule, Reason};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::mesh::isolation::{CORNERS, Piece, Plan};
-use crate::mesh::{Cage, FaceId, VertexId};
+use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, VertexId};
 use crate::net::Quadratic;
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Point, Vector, add_scaled};
 use crate::rings::Rings;
 use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
-use build::{describe, gather, refined_positions, rules_by_valence};
+use build::{describe, refined_positions, rings, rules_of_points};
+use caps::Caps;
 use place::{
     RingPatch, Source, Square, from_sector, quadrant, ring_domain, to_sector, turned_patch,
 };
@@ -49,6 +55,8 @@ pub struct SurfaceOptions {
     pub rules: RuleSet,
     /// How fast its rings contract.
     pub contraction: Contraction,
+    /// The rule at the boundary; `None` for that of the cage's tags.
+    pub boundary: Option<BoundaryRule>,
 }
 
 impl SurfaceOptions {
@@ -64,15 +72,19 @@ pub struct Surface {
     cage: Arc<Cage>,
     options: SurfaceOptions,
     plan: Plan,
-    /// The positions of the refined levels 1 and 2.
+    /// The positions of the refined levels.
     refined: Vec<Vec<Point>>,
     /// The rings around every extraordinary point.
     rings: Vec<Rings>,
     points: Vec<ExtraordinaryPoint>,
+    /// What closes the holes behind some rings.
+    caps: Option<Caps>,
+    /// The primvars, built when first asked for.
+    channels: Vec<OnceLock<primvar::Channel>>,
 }
 
-/// An extraordinary point of the surface: an interior vertex of valence other than 4, or the
-/// centre of an n-gon.
+/// An extraordinary point of the surface: an interior vertex of valence other than 4, the centre of
+/// an n-gon, or a vertex on sharp edges or the boundary that is not regular there.
 #[derive(Clone, Debug)]
 pub struct ExtraordinaryPoint {
     /// The vertex of the cage; `None` for the centre of an n-gon.
@@ -81,7 +93,13 @@ pub struct ExtraordinaryPoint {
     pub face: Option<FaceId>,
     /// The number of edges that meet here.
     pub valence: usize,
-    /// The level of Catmull-Clark refinement (0, 1 or 2) at which it is isolated.
+    /// The faces that it concerns: all around, or those between two sharp edges. A vertex with
+    /// sharp edges is as many points as it has irregular fans.
+    pub fan: Fan,
+    /// The rule that it gets, and why.
+    pub rule: PointRule,
+    /// The level of Catmull-Clark refinement at which it is isolated: 0 to 2, more where something
+    /// is semi-sharp.
     pub level: usize,
     /// The limit point.
     pub position: Point,
@@ -113,25 +131,24 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::NoRules`] if the scheme has no rules for the valence of some point
-    /// ([`SchemeKind::has_rules`]), [`SurfaceError::Contraction`] if it has no such contraction
+    /// [`SurfaceError::NoRules`] if more than 1024 faces meet at a point; where the scheme has no
+    /// rules, the point gets Catmull-Clark's ([`ExtraordinaryPoint::rule`]).
+    /// [`SurfaceError::Contraction`] if the scheme has no such contraction
     /// ([`SchemeKind::check_contraction`]).
     pub fn build(
         cage: impl Into<Arc<Cage>>,
         options: SurfaceOptions,
     ) -> Result<Self, SurfaceError> {
         let cage = cage.into();
-        let plan = Plan::new(cage.topology());
-        let rules = rules_by_valence(&plan, options)?;
+        let plan = Plan::new(&cage, options.boundary.unwrap_or(cage.tags().boundary));
+        let rules = rules_of_points(&cage, &plan, options)?;
         let refined = refined_positions(&cage, &plan);
-        let rings = (0..plan.points.len())
-            .map(|p| {
-                let cnet = gather(&cage, &plan, &refined, p);
-                Rings::with_rules(&cnet, rules[&plan.points[p].valence].clone(), None)
-            })
-            .collect::<Vec<_>>();
-        let points = rings.iter().enumerate().map(|(p, r)| describe(&plan, p, r)).collect();
-        Ok(Self { cage, options, plan, refined, rings, points })
+        let around = |(p, (_, rules)): (usize, &(_, _))| rings(&cage, &plan, &refined, p, rules);
+        let rings: Vec<Rings> = rules.iter().enumerate().map(around).collect();
+        let of_point = |(p, rings)| describe(&plan, p, rules[p].0, rings);
+        let points = rings.iter().enumerate().map(of_point).collect();
+        let channels = primvar::unbuilt(&cage);
+        Ok(Self { cage, options, plan, refined, rings, points, caps: None, channels })
     }
 
     /// The cage.
@@ -169,7 +186,7 @@ impl Surface {
         (FaceId(face as u32), (quad.0 - self.plan.first_quads[face]) as usize)
     }
 
-    /// Whether there is no surface over `face` (so where it touches a boundary).
+    /// Whether there is no surface over `face`: a hole, or at the boundary under the rule "none".
     pub fn is_omitted(&self, face: FaceId) -> bool {
         self.plan.omitted.binary_search(&face).is_ok()
     }
@@ -200,14 +217,17 @@ impl Surface {
         self.points[point].position = rings.center();
         self.points[point].normal = rings.normal();
         self.rings[point] = rings;
+        if let Some(caps) = &mut self.caps {
+            caps.forget(point);
+        }
         true
     }
 
     /// Position, derivatives, normal and curvature at (u,v) of `quad`, which are clamped to
     /// 0..1; `None` if the face is omitted, there is no such quad or a parameter is NaN.
     ///
-    /// At an extraordinary point itself the position is the limit point and the normal the
-    /// limit normal; derivatives do not exist there and are NaN, nor does curvature but for
+    /// At an extraordinary point itself, unless a cap is there, the position is the limit point and the
+    /// normal the limit normal; derivatives do not exist there and are NaN, nor does curvature but for
     /// schemes with a quadratic or a guide, where it is that of q or of the guide
     /// ([`Rings::center_curvature`]). Anywhere else, however near, all are exact to rounding
     /// ([`Rings::eval`]).
@@ -226,7 +246,7 @@ impl Surface {
                 }
                 Piece::Sector { point, sector, corner } => {
                     let [a, b] = to_sector(corner, at);
-                    let found = self.rings[point as usize].eval(sector as usize, a, b);
+                    let found = self.eval_around(point as usize, sector as usize, [a, b]);
                     let jet = from_sector(corner, &found.jet).scaled_parameters(zoom);
                     return Some(SurfacePoint { jet, ..found });
                 }
@@ -240,8 +260,20 @@ impl Surface {
         }
     }
 
+    /// A sector of an extraordinary point at its own parameters.
+    fn eval_around(&self, point: usize, sector: usize, at: [f64; 2]) -> SurfacePoint {
+        let rings = &self.rings[point];
+        if let Some(cap) = self.cap(point) {
+            let in_hole = rings.in_hole(cap.rings(), at);
+            if in_hole[0].max(in_hole[1]) <= 1.0 {
+                return cap.eval(rings, sector, in_hole);
+            }
+        }
+        rings.eval(sector, at[0], at[1])
+    }
+
     /// All regular patches and the rings 1 to `rings` of every extraordinary point, quad by
-    /// quad.
+    /// quad; of a closed surface no more rings than it has, and if it is all of them the caps.
     pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch> + '_ {
         self.patch_places(rings).map(|place| {
             let PatchPlace { role, quad, domain, point, sector, .. } = place;
@@ -266,6 +298,10 @@ impl Surface {
             Source::Ring(RingPatch { point, sector, ring, which, corner, .. }) => {
                 turned_patch(corner, &self.rings[point].patch(ring, sector, which))
             }
+            Source::Cap(RingPatch { point, sector, which, corner, .. }) => {
+                let cap = self.cap(point).expect("places of caps are those of caps");
+                turned_patch(corner, &cap.patch(&self.rings[point], sector, which))
+            }
         }
     }
 
@@ -282,6 +318,14 @@ impl Surface {
             Source::Ring(RingPatch { point, sector, ring, which, square, corner }) => {
                 let [a, b] = to_sector(corner, square.parameters([u, v]));
                 let found = self.rings[point].eval_on(ring, sector, which, a, b);
+                let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
+                SurfacePoint { jet, ..found }
+            }
+            Source::Cap(RingPatch { point, sector, ring, which, square, corner }) => {
+                let cap = self.cap(point).expect("places of caps are those of caps");
+                let rings = &self.rings[point];
+                let at = rings.in_hole(ring, to_sector(corner, square.parameters([u, v])));
+                let found = cap.eval_on(rings, sector, which, at);
                 let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
                 SurfacePoint { jet, ..found }
             }
@@ -307,22 +351,7 @@ impl Surface {
             }),
             Piece::Sector { point, sector, corner } => {
                 let (point, sector) = (point as usize, sector as usize);
-                let around = &self.rings[point];
-                let (count, sigma) = (around.patches_per_sector(), around.sigma());
-                let all = (0..rings).flat_map(|ring| (0..count).map(move |which| (ring, which)));
-                out.extend(all.map(|(ring, which)| PatchPlace {
-                    role: Role::Ring(ring + 1),
-                    quad: square.quad,
-                    domain: square.part(ring_domain(
-                        corner,
-                        sigma,
-                        ring,
-                        around.patch_domain(which),
-                    )),
-                    point: Some(point),
-                    sector: Some(sector),
-                    source: Source::Ring(RingPatch { point, sector, ring, which, square, corner }),
-                }));
+                self.collect_sector(point, sector, corner, square, rings, out);
             }
             Piece::Split(first) => {
                 for k in 0..4 {
@@ -333,25 +362,62 @@ impl Surface {
         }
     }
 
+    fn collect_sector(
+        &self,
+        point: usize,
+        sector: usize,
+        corner: u8,
+        square: Square,
+        rings: usize,
+        out: &mut Vec<PatchPlace>,
+    ) {
+        let around = &self.rings[point];
+        let place = |role, ring, which, domain| {
+            let patch = RingPatch { point, sector, ring, which, square, corner };
+            PatchPlace {
+                role,
+                quad: square.quad,
+                domain: square.part(ring_domain(corner, around.sigma(), ring, domain)),
+                point: Some(point),
+                sector: Some(sector),
+                source: if role == Role::Cap { Source::Cap(patch) } else { Source::Ring(patch) },
+            }
+        };
+        let cap = self.cap(point);
+        let count = cap.map_or(rings, |cap| rings.min(cap.rings()));
+        for (ring, which) in
+            (0..count).flat_map(|ring| (0..around.patches_per_sector()).map(move |k| (ring, k)))
+        {
+            out.push(place(Role::Ring(ring + 1), ring, which, around.patch_domain(which)));
+        }
+        if let Some(cap) = cap.filter(|cap| cap.rings() <= rings) {
+            let all = 0..cap.patches_per_sector();
+            out.extend(all.map(|k| place(Role::Cap, cap.rings(), k, cap.patch_domain(k))));
+        }
+    }
+
     fn positions(&self, level: usize) -> &[Point] {
         if level == 0 { self.cage.positions() } else { &self.refined[level - 1] }
     }
 
+    fn net_points(&self, net: u32) -> [Point; 16] {
+        let net = &self.plan.nets[net as usize];
+        net.points(self.positions(net.level as usize))
+    }
+
     fn regular_jet(&self, net: u32, [u, v]: [f64; 2]) -> Jet {
-        let net = self.plan.nets[net as usize];
-        let positions = self.positions(net.level as usize);
+        let points = self.net_points(net);
         let (bu, bv) = (cubic_b_spline(u), cubic_b_spline(v));
-        Jet::tensor_product(&bu, &bv, [4, 4], |i, j| positions[net.vertices[4 * i + j].index()])
+        Jet::tensor_product(&bu, &bv, [4, 4], |i, j| points[4 * i + j])
     }
 
     fn regular_patch(&self, net: u32) -> Patch {
-        let net = self.plan.nets[net as usize];
-        let positions = self.positions(net.level as usize);
+        let points = self.net_points(net);
         let coef = |k: usize| {
             let mut sum = [0.0; 3];
-            for (m, v) in net.vertices.iter().enumerate() {
+            for (m, &p) in points.iter().enumerate() {
                 let w = CUBIC_B_SPLINE_TO_BB[k / 4][m / 4] * CUBIC_B_SPLINE_TO_BB[k % 4][m % 4];
-                add_scaled(&mut sum, w, positions[v.index()]);
+                add_scaled(&mut sum, w, p);
             }
             sum
         };

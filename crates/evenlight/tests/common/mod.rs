@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "every test file uses a part of this")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its cages fails")]
 
+pub mod refine;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
