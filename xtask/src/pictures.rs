@@ -23,12 +23,13 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 type Make = fn() -> Result<Picture>;
 
 /// The pictures.
-const PICTURES: [(&str, Make); 6] = [
+const PICTURES: [(&str, Make); 7] = [
     ("chair.png", chair),
     ("pinch.png", pinch),
     ("family.png", family),
     ("quadratic.png", quadratic),
     ("patches.png", patches),
+    ("fair.png", fair),
     ("eigenfunctions.png", eigenfunctions),
 ];
 
@@ -97,6 +98,11 @@ fn family() -> Result<Picture> {
 }
 
 fn highlight_lines(path: &str, schemes: &[SchemeKind], zoom: f64) -> Result<Picture> {
+    near_the_point(path, schemes, Style::Highlight, zoom)
+}
+
+/// Several schemes over one cage, seen from above its first point.
+fn near_the_point(path: &str, schemes: &[SchemeKind], style: Style, zoom: f64) -> Result<Picture> {
     let cage = cage(path)?;
     let surfaces: Vec<Surface> =
         schemes.iter().map(|&scheme| surface(&cage, scheme)).collect::<Result<_>>()?;
@@ -104,12 +110,24 @@ fn highlight_lines(path: &str, schemes: &[SchemeKind], zoom: f64) -> Result<Pict
         surfaces.iter().map(|s| (s.options().scheme.name(), s)).collect();
     let view = View::toward(&surfaces[0], 0).ok_or("the first point has no normal")?;
     let options = RenderOptions {
-        style: Style::Highlight,
+        style,
         size: [400 * schemes.len(), 400],
         view: View { zoom: zoom * view.zoom, ..view },
         ..RenderOptions::default()
     };
     Ok(compare(&panels, &options)?)
+}
+
+/// Mean curvature near the extraordinary point of a saddle of valence 8.
+fn fair() -> Result<Picture> {
+    let schemes = [
+        SchemeKind::EvolvingGuide,
+        SchemeKind::Qas4,
+        SchemeKind::Fair4,
+        SchemeKind::Fair4d,
+        SchemeKind::Guided5,
+    ];
+    near_the_point("data/meshes/obstacle/saddle_n8.obj", &schemes, Style::Mean, 5.0)
 }
 
 /// A monkey saddle with its default quadratic and with three others: lifted, tilted, and bent.
