@@ -136,11 +136,9 @@ impl MeshError {
             Self::NoFaces { num_vertices } => {
                 format!("there are no faces ({num_vertices} vertices): give the mesh its faces")
             }
-            Self::TooLarge { what, count, limit } => {
-                format!(
-                    "there are {count} {what}, but at most {limit} can be numbered: split the mesh"
-                )
-            }
+            Self::TooLarge { what, count, limit } => format!(
+                "there are {count} {what}, but at most {limit} can be numbered: split the mesh"
+            ),
             Self::NonFinitePosition { vertex: v, position: [x, y, z] } => format!(
                 "vertex {} is at ({x}, {y}, {z}): give it coordinates that are finite numbers",
                 vertex(v)
