@@ -5,9 +5,10 @@ use evenlight::Surface;
 use evenlight::io::{obj_out, ply_out, stl};
 use evenlight::mesh::{Interpolation, Primvar};
 use evenlight::tessellate::{CornerValues, TriangleMesh, tessellate};
+        (MeshFormat::Glb, _) => glb::write(mesh, &mut out),
 
+use crate::cap::CapRingsArg;
 use crate::error::Failure;
-use crate::input;
 use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
@@ -20,6 +21,7 @@ pub struct MeshArgs {
 
     /// The file to write: .obj with normals and texture coordinates, .ply with normals and curvature, or .stl; `-` for
     /// stdout
+        (MeshFormat::Glb, _) => glb::write(mesh, &mut out),
     #[arg(short, long, value_name = "FILE")]
     output: Target,
 
@@ -41,6 +43,8 @@ pub enum MeshFormat {
     Ply,
     /// Binary STL
     Stl,
+    /// Binary glTF with normals, Gauss and mean curvature per vertex
+    Glb,
 }
 
 /// Runs `evenlight mesh`.
@@ -48,7 +52,7 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let format = args.output.format(args.format)?;
     let progress = Progress::new(3, quiet);
     progress.stage("Building the surface");
-    let surface = input::read_surface(&args.surface)?;
+    let surface = args.caps.read(&args.surface)?;
     progress.step();
     progress.stage("Evaluating vertices");
     let mesh = triangles(&surface, args.rate.into())?;
@@ -83,5 +87,6 @@ pub fn write(
         (MeshFormat::Obj, Some(texture)) => obj_out::write_textured(mesh, texture, &mut out),
         (MeshFormat::Ply, _) => ply_out::write(mesh, &mut out),
         (MeshFormat::Stl, _) => stl::write(mesh, &mut out),
+        (MeshFormat::Glb, _) => glb::write(mesh, &mut out),
     })
 }
