@@ -2,10 +2,9 @@
 
 use clap::{Args, ValueEnum};
 use evenlight::Surface;
-use evenlight::io::{obj_out, ply_out, stl};
+use evenlight::io::{glb, obj_out, ply_out, stl};
 use evenlight::mesh::{Interpolation, Primvar};
 use evenlight::tessellate::{CornerValues, TriangleMesh, tessellate};
-        (MeshFormat::Glb, _) => glb::write(mesh, &mut out),
 
 use crate::cap::CapRingsArg;
 use crate::error::Failure;
@@ -19,9 +18,11 @@ pub struct MeshArgs {
     #[command(flatten)]
     surface: SurfaceArgs,
 
-    /// The file to write: .obj with normals and texture coordinates, .ply with normals and curvature, or .stl; `-` for
-    /// stdout
-        (MeshFormat::Glb, _) => glb::write(mesh, &mut out),
+    #[command(flatten)]
+    caps: CapRingsArg,
+
+    /// The file to write: .obj with normals and texture coordinates, .ply or .glb with normals and
+    /// curvature, or .stl; `-` for stdout
     #[arg(short, long, value_name = "FILE")]
     output: Target,
 

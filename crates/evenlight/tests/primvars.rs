@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use common::{Random, options};
+use evenlight::cap::CapOptions;
 use evenlight::io::{obj, obj_out};
 use evenlight::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use evenlight::tessellate::tessellate;
@@ -82,6 +83,26 @@ fn positions_as_a_channel_are_the_surface() {
             }
         }
     }
+}
+
+/// Channels are closed by caps where the surface is.
+#[test]
+fn channels_have_the_caps_of_the_surface() {
+    let mut mesh = common::mesh("own_blob_quadriflow_300.obj");
+    let values = coordinates(&mesh, 3);
+    mesh.primvars.push(primvar(Interpolation::Vertex, 3, values, &mesh));
+    let mut surface = Surface::build(Cage::new(mesh).unwrap(), options(SchemeKind::Qas4)).unwrap();
+    let point = surface.extraordinary_points()[0].sectors[0];
+    let [u, v] = [0, 1].map(|k| point.center[k] + 0.01 * (point.along[0][k] + point.along[1][k]));
+    let value = |surface: &Surface| {
+        let value = surface.eval_primvar(0, point.quad, u, v).unwrap().value;
+        let position = surface.eval(point.quad, u, v).unwrap().jet.p;
+        assert!(agree(&value[..3], &position, 1e-11), "{value:?}, not {position:?}");
+        value
+    };
+    let rings = value(&surface);
+    surface.set_caps(Some(CapOptions { rings: 2, ..CapOptions::default() })).unwrap();
+    assert!(rings != value(&surface), "the cap is another surface than the rings");
 }
 
 /// A cage with a texture, its corners' values by a function of their number.
