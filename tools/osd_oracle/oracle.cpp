@@ -10,6 +10,10 @@
 // `vt`, they follow in each of the six modes, unless the second argument is `--no-uv`.
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
+#include <opensubdiv/far/patchMap.h>
+#include <opensubdiv/far/patchTableFactory.h>
+#include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/ptexIndices.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 #include <opensubdiv/version.h>
@@ -158,48 +162,109 @@ static void print(std::string &out, double x) {
     out += s;
 }
 
-// All points of one parametric quad; `corner` is -1 for a quad of the cage.
-static void writeQuad(Bfr::Surface<double> const &surface, std::vector<double> const &values, int width, int corner,
-                      std::string &out) {
-    typedef Bfr::Surface<double>::PointDescriptor Stride;
-    std::vector<double> points(size_t(surface.GetNumPatchPoints()) * width);
-    surface.PreparePatchPoints(values.data(), Stride(width), points.data(), Stride(width));
-    for (double u : GRID) {
-        for (double v : GRID) {
-            double at[2] = {u, v}, unit = 1, result[3][3];
-            if (corner >= 0) {
-                double inQuad[2] = {u, v};
-                surface.GetParameterization().ConvertNormalizedSubFaceToCoord(corner, inQuad, at);
-                unit = .5;
-            }
-            surface.Evaluate(at, points.data(), Stride(width), result[0], result[1], result[2]);
-            for (int d = 0; d < 3; ++d) {
-                for (int k = 0; k < width; ++k) {
-                    if (d + k) out += ' ';
-                    print(out, result[d][k] * (d ? unit : 1));
+struct Point {
+    double x[3];
+    void Clear(void * = nullptr) { x[0] = x[1] = x[2] = 0; }
+    void AddWithWeight(Point const &p, double w) {
+        for (int k = 0; k < 3; ++k) x[k] += w * p.x[k];
+    }
+};
+
+// A line of the three results of `width` numbers each.
+static void print(std::string &out, double const *results, int width) {
+    for (int i = 0; i < 3 * width; ++i) {
+        if (i) out += ' ';
+        print(out, results[i]);
+    }
+    out += '\n';
+}
+
+// The control points of all patches.
+static std::vector<Point> patchPoints(Cage const &cage, Far::TopologyRefiner const &mesh, Far::PatchTable const &table) {
+    int refined = mesh.GetNumVerticesTotal();
+    std::vector<Point> points(size_t(refined) + table.GetNumLocalPoints());
+    for (size_t i = 0; i < cage.positions.size(); ++i) points[i / 3].x[i % 3] = cage.positions[i];
+    Far::PrimvarRefinerReal<double> interpolation(mesh);
+    Point *from = points.data();
+    for (int level = 1; level <= mesh.GetMaxLevel(); ++level) {
+        Point *to = from + mesh.GetLevel(level - 1).GetNumVertices();
+        interpolation.Interpolate(level, from, to);
+        from = to;
+    }
+    if (table.GetNumLocalPoints() > 0) {
+        table.GetLocalPointStencilTable<double>()->UpdateValues(points.data(), points.data() + refined);
+    }
+    return points;
+}
+
+static std::string positions(Cage const &cage) {
+    auto mesh = refiner(cage, -1);
+    Far::PatchTableFactory::Options options(DEPTH);
+    options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
+    options.useInfSharpPatch = true;
+    options.SetPatchPrecision<double>();
+    mesh->RefineAdaptive(options.GetRefineAdaptiveOptions());
+    std::unique_ptr<Far::PatchTable> table(Far::PatchTableFactory::Create(*mesh, options));
+    std::vector<Point> points = patchPoints(cage, *mesh, *table);
+    Far::PatchMap map(*table);
+    Far::PtexIndices quads(*mesh);
+    std::string out;
+    for (int face = 0; face < int(cage.sizes.size()); ++face) {
+        int size = cage.sizes[face], first = quads.GetFaceId(face);
+        bool found = map.FindPatch(first, .5, .5);
+        if (!found) out += "omitted " + std::to_string(face) + '\n';
+        for (int k = 0; found && k < (size == 4 ? 1 : size); ++k) {
+            out += "quad " + std::to_string(face) + ' ' + std::to_string(k) + '\n';
+            for (int i = 0; i < 100; ++i) {
+                double u = GRID[i / 10], v = GRID[i % 10], w[3][20];
+                auto const *patch = map.FindPatch(first + k, u, v);
+                table->EvaluateBasis(*patch, u, v, w[0], w[1], w[2]);
+                Far::ConstIndexArray vertices = table->GetPatchVertices(*patch);
+                Point results[3] = {};
+                for (int d = 0; d < 3; ++d) {
+                    // Far counts the refinement that makes quads of an n-gon as one of its quads.
+                    double unit = d > 0 && size != 4 ? .5 : 1;
+                    for (int j = 0; j < vertices.size(); ++j) {
+                        results[d].AddWithWeight(points[vertices[j]], unit * w[d][j]);
+                    }
                 }
+                print(out, results[0].x, 3);
             }
-            out += '\n';
         }
+    }
+    return out;
+}
+
+// The texture coordinates of one parametric quad; `corner` is -1 for a quad of the cage.
+static void writeTexture(Bfr::Surface<double> const &surface, std::vector<double> const &values, int corner, std::string &out) {
+    Bfr::Surface<double>::PointDescriptor stride(2);
+    std::vector<double> points(2 * size_t(surface.GetNumPatchPoints()));
+    surface.PreparePatchPoints(values.data(), stride, points.data(), stride);
+    for (int i = 0; i < 100; ++i) {
+        double inQuad[2] = {GRID[i / 10], GRID[i % 10]}, at[2] = {inQuad[0], inQuad[1]}, results[6];
+        if (corner >= 0) surface.GetParameterization().ConvertNormalizedSubFaceToCoord(corner, inQuad, at);
+        surface.Evaluate(at, points.data(), stride, results, results + 2, results + 4);
+        // The quads of an n-gon have sides of 1/2 in the parameters of the n-gon.
+        for (int k = 2; corner >= 0 && k < 6; ++k) results[k] *= .5;
+        print(out, results, 2);
     }
 }
 
-static std::string surfaces(Cage const &cage, int mode) {
-    std::string out;
+static std::string textures(Cage const &cage, int mode) {
     auto mesh = refiner(cage, mode);
     typedef Bfr::RefinerSurfaceFactory<> Factory;
     Factory::Options options;
     options.SetApproxLevelSmooth(DEPTH).SetApproxLevelSharp(DEPTH);
     Factory factory(*mesh, options);
+    std::string out;
     for (int face = 0; face < int(cage.sizes.size()); ++face) {
         Bfr::Surface<double> surface;
-        bool found = mode < 0 ? factory.InitVertexSurface(face, &surface)
-                              : factory.InitFaceVaryingSurface(face, &surface, 0);
+        bool found = factory.InitFaceVaryingSurface(face, &surface, 0);
         int size = cage.sizes[face];
         if (!found) out += "omitted " + std::to_string(face) + '\n';
         for (int k = 0; found && k < (size == 4 ? 1 : size); ++k) {
             out += "quad " + std::to_string(face) + ' ' + std::to_string(k) + '\n';
-            writeQuad(surface, mode < 0 ? cage.positions : cage.uvs, mode < 0 ? 3 : 2, size == 4 ? -1 : k, out);
+            writeTexture(surface, cage.uvs, size == 4 ? -1 : k, out);
         }
     }
     return out;
@@ -212,14 +277,14 @@ int main(int argc, char **argv) {
     const char *name = strrchr(argv[1], '/');
     printf("# Limit surface of %s by OpenSubdiv %d.%d.%d (Debian libosd-dev), written by tools/osd_oracle/oracle.cpp:\n",
            name ? name + 1 : argv[1], OPENSUBDIV_VERSION_MAJOR, OPENSUBDIV_VERSION_MINOR, OPENSUBDIV_VERSION_PATCH);
-    printf("# Bfr surfaces in double precision, approximation levels %d (smooth) and %d (sharp).\n", DEPTH, DEPTH);
+    printf("# double precision, isolation and approximation levels %d; positions by Far, texture coordinates by Bfr.\n", DEPTH);
     printf("# Per quad (face, corner) and parameters (u, v), v fastest, each out of 0 .03 .125 .27 .4 .5 .61 .75 .9 1:\n");
     printf("# value, derivative along u, derivative along v.\n");
-    printf("positions\n%s", surfaces(cage, -1).c_str());
+    printf("positions\n%s", positions(cage).c_str());
     // Many modes give the same; then the first of them is named.
     std::vector<std::string> modes;
     for (int mode = 0; hasUvs && mode < 6; ++mode) {
-        modes.push_back(surfaces(cage, mode));
+        modes.push_back(textures(cage, mode));
         int first = int(std::find(modes.begin(), modes.end(), modes.back()) - modes.begin());
         if (first < mode) printf("uv %s as %s\n", MODES[mode], MODES[first]);
         else printf("uv %s\n%s", MODES[mode], modes.back().c_str());

@@ -12,6 +12,8 @@
 //!  /   5-----5    /
 //! ```
 
+mod peer;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
@@ -34,15 +36,22 @@ const LAYERS: usize = 7;
 pub struct Arguments {
     /// OBJ files to measure first
     cages: Vec<std::path::PathBuf>,
+    /// Beside OpenSubdiv, which must be installed (libosd-dev and g++): the given cages, or two of
+    /// ours, on one thread
+    #[arg(long)]
+    peer: bool,
 }
 
 /// Measures the given cages and the large one.
 pub fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
+    if arguments.peer {
+        return peer::run(&arguments.cages);
+    }
     for path in &arguments.cages {
         measure(&path.display().to_string(), &std::fs::read(path)?)?;
     }
     let mut text = Vec::new();
-    obj::write(&studded_torus(), &mut text)?;
+    obj::write(&studded_torus(CELLS), &mut text)?;
     measure("studded torus", &text)
 }
 
@@ -104,10 +113,10 @@ fn peak_memory() -> Option<f64> {
     Some(kib / (1024.0 * 1024.0))
 }
 
-/// The large cage.
-fn studded_torus() -> Mesh {
-    let mut builder = Builder::default();
-    let [rows, columns] = CELLS.map(|cells| cells * CELL);
+/// The large cage, or one of fewer cells.
+fn studded_torus(cells: [usize; 2]) -> Mesh {
+    let mut builder = Builder { size: cells.map(|cells| cells * CELL), ..Builder::default() };
+    let [rows, columns] = builder.size;
     for i in 0..rows {
         for j in 0..columns {
             // Height 0 outside the blocks, on their tops the full height.
@@ -132,6 +141,8 @@ fn in_block(i: usize) -> bool {
 
 #[derive(Default)]
 struct Builder {
+    /// Quads around the torus, the short way and the long way.
+    size: [usize; 2],
     ids: BTreeMap<(usize, usize, usize), u32>,
     positions: Vec<Point>,
     faces: Vec<[u32; 4]>,
@@ -159,7 +170,7 @@ impl Builder {
     }
 
     fn vertex(&mut self, (i, j, height): (usize, usize, usize)) -> u32 {
-        let [rows, columns] = CELLS.map(|cells| cells * CELL);
+        let [rows, columns] = self.size;
         let (i, j) = (i % rows, j % columns);
         *self.ids.entry((i, j, height)).or_insert_with(|| {
             let angle = |k: usize, of: usize| std::f64::consts::TAU * k as f64 / of as f64;

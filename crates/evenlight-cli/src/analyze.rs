@@ -44,7 +44,7 @@ pub struct AnalyzeArgs {
     q: QArg,
 
     /// Number of rings around every extraordinary point, 1 to 100; ring k reaches to 2^-k of a
-    /// sector
+    /// sector (at contraction cc)
     #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=100))]
     rings: u8,
 

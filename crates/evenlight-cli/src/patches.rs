@@ -29,6 +29,7 @@ pub struct PatchesArgs {
     format: Option<PatchFormat>,
 
     /// Number of rings around every extraordinary point; ring k reaches to 2^-k of a sector
+    /// (at contraction cc)
     #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=48))]
     rings: u8,
 }

@@ -1,6 +1,6 @@
 //! Laws of guided rings, whatever the guide and the net are.
 
-use evenlight_guide::guided::bb::{End, monomials, number, raise, restrict};
+use evenlight_guide::guided::bb::{End, monomials, raise, restrict};
 use evenlight_guide::guided::cap::Cap;
 use evenlight_guide::guided::characteristic::{CharacteristicRing, SQUARES, Square, sigma_of};
 use evenlight_guide::guided::composition::{jet_at, product};
@@ -33,14 +33,10 @@ fn guide_and_net(valence: usize) -> (Matrix, Matrix) {
     (guide, net)
 }
 
-/// The characteristic rings of Catmull-Clark and of speed 1/2, as far as the form allows.
-fn characteristic_rings(valence: usize, form: Form) -> Vec<CharacteristicRing> {
-    let mut rings = vec![CharacteristicRing::catmull_clark(valence)];
-    if form.degree() >= 5 {
-        let sigma = sigma_of(valence, Real::ratio(1, 2));
-        rings.push(CharacteristicRing::new(valence, sigma));
-    }
-    rings
+/// The characteristic rings of Catmull-Clark and of two other speeds.
+fn characteristic_rings(valence: usize) -> [CharacteristicRing; 3] {
+    let of_speed = |p, q| CharacteristicRing::new(valence, sigma_of(valence, Real::ratio(p, q)));
+    [CharacteristicRing::catmull_clark(valence), of_speed(1, 2), of_speed(7, 20)]
 }
 
 /// A piece of an edge: its ends in the unit interval, and the data across it in BB form along it.
@@ -56,38 +52,52 @@ struct Layout {
     /// Patches per square and variable.
     count: usize,
     sigma: Real,
+    /// The lines between the patches in an inner and an outer side.
+    lines: [Vec<Real>; 2],
 }
 
 impl Layout {
     fn new(chi: &CharacteristicRing, form: Form) -> Self {
-        let count = if form.degree() >= 5 { 1 } else { 6 - form.degree() };
-        Self { form, count, sigma: chi.sigma }
+        let lines = form.lines(chi.sigma);
+        Self { form, count: lines[0].len() - 1, sigma: chi.sigma, lines }
     }
 
-    /// The width of the patches of a square along u, and along v.
-    fn widths(&self, square: Square) -> [Real; 2] {
-        let (inner, outer) = (self.sigma, Real::ONE - self.sigma);
-        let sides = match square {
-            Square::A => [outer, inner],
-            Square::B => [outer, outer],
-            Square::C => [inner, outer],
+    /// The widths of the patches of a square along u (or v).
+    fn widths(&self, square: Square, along_u: bool) -> Vec<Real> {
+        let is_inner = square == if along_u { Square::C } else { Square::A };
+        let (side, lines) = match is_inner {
+            true => (self.sigma, &self.lines[0]),
+            false => (Real::ONE - self.sigma, &self.lines[1]),
         };
-        sides.map(|side| side / number(self.count))
+        lines.windows(2).map(|ends| side * (ends[1] - ends[0])).collect()
     }
 
-    /// The data across the side of a patch, in units of the ring.
-    fn side(&self, square: Square, patch: &Matrix, across_u: bool, end: End) -> Matrix {
-        let width = self.widths(square)[usize::from(!across_u)];
+    /// The patches of a square.
+    fn patches(&self, ring: &Squares, square: Square) -> Vec<Matrix> {
+        self.form.patches(square, self.sigma, &ring[square as usize])
+    }
+
+    /// The data across the side of patch `number`, in units of the ring.
+    fn side(
+        &self,
+        square: Square,
+        (number, patch): (usize, &Matrix),
+        across_u: bool,
+        end: End,
+    ) -> Matrix {
+        let place = if across_u { number / self.count } else { number % self.count };
+        let width = self.widths(square, across_u)[place];
         &side_data(self.form.degree(), across_u, end, width) * patch
     }
 
     /// The patches along a side of a square, with the data across the side.
     fn along(&self, ring: &Squares, square: Square, across_u: bool, end: End) -> Vec<Matrix> {
-        let patches = self.form.patches(&ring[square as usize]);
+        let patches = self.patches(ring, square);
         let last = if end == End::Start { 0 } else { self.count - 1 };
         let number =
             |k: usize| if across_u { self.count * last + k } else { self.count * k + last };
-        (0..self.count).map(|k| self.side(square, &patches[number(k)], across_u, end)).collect()
+        let side = |k: usize| self.side(square, (k, &patches[k]), across_u, end);
+        (0..self.count).map(|k| side(number(k))).collect()
     }
 
     /// The outer edge u = 1 (or v = 1) of a ring.
@@ -96,8 +106,11 @@ impl Layout {
         let mut from = Real::ZERO;
         let mut pieces = Vec::new();
         for square in [first, Square::B] {
-            for data in self.along(ring, square, across_u, End::Finish) {
-                let to = from + self.widths(square)[usize::from(across_u)];
+            let widths = self.widths(square, !across_u);
+            for (data, width) in
+                self.along(ring, square, across_u, End::Finish).into_iter().zip(widths)
+            {
+                let to = from + width;
                 pieces.push(Piece { from, to, data });
                 from = to;
             }
@@ -109,12 +122,11 @@ impl Layout {
     fn inner_edge(&self, ring: &Squares, across_u: bool) -> Vec<Piece> {
         let square = if across_u { Square::A } else { Square::C };
         let order = self.form.degree() + 1;
-        let count = number(self.count);
         let unit = |k: usize| (0..k).fold(Real::ONE, |power, _| power * self.sigma);
         let pieces = self.along(ring, square, across_u, End::Start).into_iter().enumerate();
         let piece = |(k, data): (usize, Matrix)| Piece {
-            from: number(k) / count,
-            to: number(k + 1) / count,
+            from: self.lines[0][k],
+            to: self.lines[0][k + 1],
             data: Matrix::from_fn(3 * order, 1, |row, _| unit(row / order) * data[(row, 0)]),
         };
         pieces.map(piece).collect()
@@ -136,13 +148,14 @@ impl Layout {
     fn inner_jump(&self, ring: &Squares) -> f64 {
         let mut worst = 0.0f64;
         for square in SQUARES {
-            let patches = self.form.patches(&ring[square as usize]);
+            let patches = self.patches(ring, square);
             for (k, patch) in patches.iter().enumerate() {
                 for (across_u, step) in [(true, self.count), (false, 1)] {
                     let place = if across_u { k / self.count } else { k % self.count };
                     if place + 1 < self.count {
-                        let before = self.side(square, patch, across_u, End::Finish);
-                        let after = self.side(square, &patches[k + step], across_u, End::Start);
+                        let before = self.side(square, (k, patch), across_u, End::Finish);
+                        let next = (k + step, &patches[k + step]);
+                        let after = self.side(square, next, across_u, End::Start);
                         worst = worst.max(largest(&(&before - &after)));
                     }
                 }
@@ -179,7 +192,7 @@ fn rings_join_each_other_and_the_surrounding_surface_with_second_derivatives() {
     for n in [3, 5, 8] {
         let (guide, net) = guide_and_net(n);
         for form in FORMS {
-            for chi in characteristic_rings(n, form) {
+            for chi in characteristic_rings(n) {
                 let (rings, layout) = (Rings::new(&chi, form), Layout::new(&chi, form));
                 let surround = CNet { valence: n }.outer_data(form.degree());
                 let mut before: Option<Vec<Squares>> = None;
@@ -233,7 +246,7 @@ fn piece(exponents: (usize, usize), scale: Real) -> Matrix {
 fn the_rings_of_the_characteristic_net_are_multiples_of_the_characteristic_ring() {
     for n in [3, 5, 6, 8, 10] {
         for form in [Form::Bi6, Form::Bi5] {
-            for chi in characteristic_rings(n, form) {
+            for chi in characteristic_rings(n) {
                 let rings = Rings::new(&chi, form);
                 let up = raise(3, form.degree());
                 let up = up.kronecker(&up);
@@ -260,7 +273,7 @@ fn the_rings_of_the_characteristic_net_are_multiples_of_the_characteristic_ring(
 #[test]
 fn bi6_rings_of_a_quadratic_are_the_quadratic_of_the_characteristic_ring() {
     for n in [3, 5, 6, 8, 10] {
-        for chi in characteristic_rings(n, Form::Bi6) {
+        for chi in characteristic_rings(n) {
             let rings = Rings::new(&chi, Form::Bi6);
             for exponents in [(2, 0), (1, 1), (0, 2)] {
                 let guide = piece(exponents, chi.domain_scale());
@@ -286,7 +299,7 @@ fn bi6_rings_of_a_quadratic_are_the_quadratic_of_the_characteristic_ring() {
 fn the_cap_joins_the_last_ring_with_first_derivatives() {
     for (n, form) in [3, 5, 8].into_iter().flat_map(|n| [(n, Form::Bi6), (n, Form::Bi5)]) {
         let (guide, net) = guide_and_net(n);
-        for chi in characteristic_rings(n, form) {
+        for chi in characteristic_rings(n) {
             let (rings, cap) = (Rings::new(&chi, form), Cap::new(&chi, form));
             let layout = Layout::new(&chi, form);
             let raised = Matrix::identity(2).kronecker(&raise(form.degree(), 6));
@@ -317,11 +330,14 @@ fn constants_are_reproduced() {
         let guide = Matrix::from_fn(36 * n, 1, |_, _| Real::ONE);
         let net = Matrix::from_fn(6 * n + 1, 1, |_, _| Real::ONE);
         for form in FORMS {
-            let rings = Rings::new(&CharacteristicRing::catmull_clark(n), form);
-            for square in (0..2).flat_map(|level| rings.ring(level, &guide, &net)).flatten() {
-                for patch in form.patches(&square) {
-                    let ones = Matrix::from_fn(patch.num_rows(), 1, |_, _| Real::ONE);
-                    assert!(largest(&(&patch - &ones)) < 1e-27, "{form:?}, n = {n}");
+            let chi = CharacteristicRing::catmull_clark(n);
+            let rings = Rings::new(&chi, form);
+            for ring in (0..2).flat_map(|level| rings.ring(level, &guide, &net)) {
+                for square in SQUARES {
+                    for patch in form.patches(square, chi.sigma, &ring[square as usize]) {
+                        let ones = Matrix::from_fn(patch.num_rows(), 1, |_, _| Real::ONE);
+                        assert!(largest(&(&patch - &ones)) < 1e-27, "{form:?}, n = {n}");
+                    }
                 }
             }
         }

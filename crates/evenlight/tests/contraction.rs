@@ -9,8 +9,13 @@ use std::sync::Arc;
 use common::Random;
 use evenlight::analyse::continuity::continuity;
 use evenlight::net::CNet;
+use evenlight::point::{norm, sub};
 use evenlight::rings::Rings;
 use evenlight::{Cage, Contraction, RuleSet, SchemeKind, Surface, SurfaceOptions};
+use evenlight_guide::guided::characteristic::{CharacteristicRing, Square, sigma_of};
+use evenlight_guide::guided::fit::{generating_matrix, guide};
+use evenlight_guide::guided::rings::{self as derivation, Form};
+use evenlight_guide::linear::Matrix;
 
 const GUIDED: [SchemeKind; 4] =
     [SchemeKind::Guided3, SchemeKind::Guided4, SchemeKind::Guided5, SchemeKind::Guided6];
@@ -80,6 +85,40 @@ fn rings_contract_by_lambda() {
             let c = (std::f64::consts::TAU / n as f64).cos();
             let trace = s * (1.0 + s * s + c * (1.0 - s) * (1.0 - s));
             assert!((lambda * lambda - trace * lambda + s.powi(4)).abs() < 1e-15);
+        }
+    }
+}
+
+/// Two routes to one surface: the library's rules, and the rings of the derivation in 30 digits.
+#[test]
+fn rings_are_those_of_the_derivation() {
+    let forms = [Form::Bi3, Form::Bi4, Form::Bi5, Form::Bi6];
+    for (n, contraction) in [(3, 0.5), (5, 0.5), (6, 0.35), (8, 0.65), (32, 0.5)] {
+        let chi = CharacteristicRing::new(n, sigma_of(n, contraction.into()));
+        let cnet = random_cnet(n);
+        let nodes: Vec<[f64; 3]> =
+            cnet.sectors.iter().flatten().copied().chain([cnet.center]).collect();
+        let net = Matrix::from_fn(nodes.len(), 3, |node, k| nodes[node][k].into());
+        let guide = guide(&generating_matrix(&chi), n, &net);
+        for (scheme, form) in GUIDED.into_iter().zip(forms) {
+            let exact = derivation::Rings::new(&chi, form);
+            let rings = Rings::from_cnet(&cnet, scheme, Contraction::Lambda(contraction)).unwrap();
+            for level in 0..3 {
+                let ring = exact.ring(level, &guide, &net);
+                for (s, square) in [0, n - 1].into_iter().flat_map(|s| [0, 1, 2].map(|k| (s, k))) {
+                    let place = [Square::B, Square::A, Square::C][square];
+                    let table = &ring[s][place as usize];
+                    let patches = form.patches(place, chi.sigma, table);
+                    for (k, patch) in patches.iter().enumerate() {
+                        let found = rings.patch(level, s, square * patches.len() + k);
+                        for (row, p) in found.coefs().iter().enumerate() {
+                            let exact = [0, 1, 2].map(|k| patch[(row, k)].to_f64());
+                            let gap = norm(sub(*p, exact));
+                            assert!(gap < 1e-12, "n = {n}, {}, ring {level}: {gap}", scheme.name());
+                        }
+                    }
+                }
+            }
         }
     }
 }

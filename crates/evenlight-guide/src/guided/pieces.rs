@@ -4,29 +4,58 @@
 //! numbers. So are the splines
 //!
 //! ```text
-//!   bi-4:   0 ---------- 1/2 ---------- 1        2 pieces, C3 at the joint
-//!   bi-3:   0 ------ 1/3 ------ 2/3 ---- 1        3 pieces, C2 at the joints
+//!   bi-4:   0 ------------ x ----------- 1        2 pieces, C3 at the joint
+//!   bi-3:   0 ------- x ------- y ------ 1        3 pieces, C2 at the joints
 //! ```
 //!
 //! Replacing the one by the other in both variables of a bi-5 patch keeps its jets at the corners,
-//! and makes 2 x 2 patches of bi-degree 4, or 3 x 3 of bi-degree 3 [KP18-Guided, sec. 6.2]. When
-//! the interval of a spline is halved, its knots are among those of the two halves; so the rings
-//! still join with continuous second derivatives, if sigma is 1/2.
+//! and makes 2 x 2 patches of bi-degree 4, or 3 x 3 of bi-degree 3 [KP18-Guided, sec. 6.2].
+//!
+//! The rings join with continuous second derivatives if the spline along the edge of a hole, with
+//! the knots H, survives when it is cut at sigma: its inner part is the edge of the next hole, the
+//! outer one has knots Z of its own,
+//!
+//! ```text
+//!   H is contained in   sigma H  +  {sigma}  +  sigma + (1 - sigma) Z.
+//! ```
+//!
+//! So a single knot is sigma; of two, the smaller is sigma times the larger, which comes from Z. For
+//! sigma = 1/2 they are 1/2, and 1/3 and 2/3 ([`knots`]).
 //!
 //! DIFFERENCE: the paper gives no formulas; these splines are the only ones with as many degrees of
 //! freedom as there are data.
 
-use crate::guided::bb::{ENDS, End, bb_from_taylor, number, restrict, taylor, taylor_at, units};
+use crate::guided::bb::{ENDS, End, bb_from_taylor, power, restrict, taylor, taylor_at, units};
 use crate::linear::Matrix;
 use crate::real::Real;
 
-/// The BB coefficients of the pieces, (`degree` + 1) rows each, on those of the quintic with the
-/// same data at both ends; `degree` is 4 or 3, with 6 - `degree` pieces.
-pub fn spline(degree: usize) -> Matrix {
-    let (count, order) = (num_pieces(degree), degree + 1);
-    let size = count * order;
-    let mut system = Matrix::zeros(size, size);
-    let mut right = Matrix::zeros(size, 6);
+/// The knots of splines of `degree` 4 or 3 over the whole edge of a hole and over its outer part
+/// `[sigma,1]`, each in `[0,1]`; none in higher degrees.
+pub fn knots(degree: usize, sigma: Real) -> [Vec<Real>; 2] {
+    let (one, half) = (Real::ONE, Real::ratio(1, 2));
+    match degree {
+        4 => [vec![sigma], vec![half]],
+        3 => {
+            let larger = one / (Real::from(2) - sigma);
+            [vec![sigma * larger, larger], vec![one - larger, one - half * larger]]
+        }
+        _ => [vec![], vec![]],
+    }
+}
+
+/// The ends of the interval and the knots between them.
+pub fn lines(knots: &[Real]) -> Vec<Real> {
+    [&[Real::ZERO], knots, &[Real::ONE]].concat()
+}
+
+/// The BB coefficients of the pieces between one or two knots, (degree + 1) rows each, on those of
+/// the quintic with the same data at both ends; the degree is 5 less the number of knots.
+pub fn spline(knots: &[Real]) -> Matrix {
+    let (count, degree, lines) = (knots.len() + 1, 5 - knots.len(), lines(knots));
+    let order = degree + 1;
+    let width = |piece: usize| lines[piece + 1] - lines[piece];
+    let mut system = Matrix::zeros(count * order, count * order);
+    let mut right = Matrix::zeros(count * order, 6);
     let mut row = 0;
     for joint in 1..count {
         for k in 0..degree {
@@ -34,14 +63,15 @@ pub fn spline(degree: usize) -> Matrix {
                 [(joint - 1, End::Finish, Real::ONE), (joint, End::Start, -Real::ONE)]
             {
                 let taylor = taylor_at(degree, degree, end);
-                (0..order).for_each(|i| system[(row, piece * order + i)] = sign * taylor[(k, i)]);
+                let unit = sign / power(width(piece), k);
+                (0..order).for_each(|i| system[(row, piece * order + i)] = unit * taylor[(k, i)]);
             }
             row += 1;
         }
     }
     for (piece, end) in [0, count - 1].into_iter().zip(ENDS) {
         let local = taylor_at(degree, 3, end);
-        let given = &units(3, Real::ONE / number(count)) * &taylor_at(5, 3, end);
+        let given = &units(3, width(piece)) * &taylor_at(5, 3, end);
         for k in 0..3 {
             (0..order).for_each(|i| system[(row, piece * order + i)] = local[(k, i)]);
             right.set_row(row, given.row(k));
@@ -51,27 +81,22 @@ pub fn spline(degree: usize) -> Matrix {
     system.solve(&right).expect("a spline is determined by its data at the ends")
 }
 
-/// The number of pieces per variable.
-pub fn num_pieces(degree: usize) -> usize {
-    6 - degree
-}
-
-/// The quintics over [0,1/2] and [1/2,1] with the end data of the spline: what de Casteljau's
-/// algorithm is for the quintic itself.
-pub fn halves(degree: usize) -> [Matrix; 2] {
-    let half = Real::ratio(1, 2);
-    let (count, order) = (num_pieces(degree), degree + 1);
-    // The middle is the end of piece 0 of 2, or the middle of piece 1 of 3.
-    let (piece, local) = if count == 2 { (0, Real::ONE) } else { (1, half) };
+/// The quintics over `[0,sigma]` and `[sigma,1]` with the end data of the spline: what de
+/// Casteljau's algorithm is for the quintic itself.
+pub fn parts(knots: &[Real], sigma: Real) -> [Matrix; 2] {
+    let (order, lines) = (6 - knots.len(), lines(knots));
+    let piece = knots.iter().filter(|&&knot| knot < sigma).count();
+    let width = lines[piece + 1] - lines[piece];
     let rows: Vec<usize> = (piece * order..(piece + 1) * order).collect();
-    let middle = &taylor(degree, 3, local) * &spline(degree).select_rows(&rows);
-    let middle = &units(3, number(count)) * &middle;
+    let local = (sigma - lines[piece]) / width;
+    let middle = &taylor(order - 1, 3, local) * &spline(knots).select_rows(&rows);
+    let middle = &units(3, Real::ONE / width) * &middle;
     let ends = ENDS.map(|end| taylor_at(5, 3, end));
-    let quintic = |start: &Matrix, finish: &Matrix| {
-        let to_bb = |end, data: &Matrix| &(&bb_from_taylor(5, 3, end) * &units(3, half)) * data;
+    let quintic = |start: &Matrix, finish: &Matrix, width: Real| {
+        let to_bb = |end, data: &Matrix| &(&bb_from_taylor(5, 3, end) * &units(3, width)) * data;
         to_bb(End::Start, start).above(&to_bb(End::Finish, finish))
     };
-    [quintic(&ends[0], &middle), quintic(&middle, &ends[1])]
+    [quintic(&ends[0], &middle, sigma), quintic(&middle, &ends[1], Real::ONE - sigma)]
 }
 
 /// The halves of the quintic itself when split at `sigma`.
@@ -85,45 +110,62 @@ mod tests {
     use crate::guided::bb::raise;
     use crate::linear::largest;
 
+    const SIGMAS: [(i32, i32); 4] = [(1, 5), (1, 2), (3, 5), (3, 4)];
+
+    /// The value at `t` on the coefficients that `table` is on.
+    fn value(knots: &[Real], table: &Matrix, t: Real) -> Matrix {
+        let (order, lines) = (6 - knots.len(), lines(knots));
+        let piece = knots.iter().filter(|&&knot| knot < t).count();
+        let rows: Vec<usize> = (piece * order..(piece + 1) * order).collect();
+        let local = (t - lines[piece]) / (lines[piece + 1] - lines[piece]);
+        &taylor(order - 1, 1, local) * &table.select_rows(&rows)
+    }
+
     #[test]
     fn splines_of_low_degree_are_reproduced() {
-        // A cubic is both a quintic and a spline of one knot-free piece.
-        for degree in [3, 4] {
-            let pieces = num_pieces(degree);
-            let quintic = raise(3, 5);
-            let spline = &spline(degree) * &quintic;
-            let cubic = (0..pieces).map(|k| {
-                let at = |k| number(k) / number(pieces);
-                &raise(3, degree) * &restrict(3, at(k), at(k + 1))
-            });
-            let exact = cubic.reduce(|all, piece| all.above(&piece)).unwrap();
-            assert!(largest(&(&spline - &exact)) < 1e-28, "degree {degree}");
+        // A cubic is both a quintic and a spline without knots.
+        for (degree, (p, q)) in [3, 4].into_iter().flat_map(|d| SIGMAS.map(|sigma| (d, sigma))) {
+            for knots in knots(degree, Real::ratio(p, q)) {
+                let spline = &spline(&knots) * &raise(3, 5);
+                let lines = lines(&knots);
+                let cubic = lines.windows(2).map(|ends| {
+                    let part = restrict(3, ends[0], ends[1]);
+                    &raise(3, degree) * &part
+                });
+                let exact = cubic.reduce(|all, piece| all.above(&piece)).unwrap();
+                assert!(largest(&(&spline - &exact)) < 1e-26, "degree {degree}");
+            }
         }
     }
 
     #[test]
-    fn the_halves_of_a_spline_are_splines_of_their_end_data() {
-        for degree in [3, 4] {
-            let whole = spline(degree);
-            let order = degree + 1;
-            let point = |table: &Matrix, t: Real| {
-                let count = num_pieces(degree);
-                let scaled = t * number(count);
-                let piece = (scaled.to_f64() as usize).min(count - 1);
-                let rows: Vec<usize> = (piece * order..(piece + 1) * order).collect();
-                &taylor(degree, 1, scaled - number(piece)) * &table.select_rows(&rows)
-            };
+    fn the_parts_of_a_spline_are_splines_of_their_end_data() {
+        for (degree, (p, q)) in [3, 4].into_iter().flat_map(|d| SIGMAS.map(|sigma| (d, sigma))) {
+            let sigma = Real::ratio(p, q);
+            let [whole, outer] = knots(degree, sigma);
+            let [low, high] = parts(&whole, sigma);
+            let (low, high) = (&spline(&whole) * &low, &spline(&outer) * &high);
             for k in 0..20 {
                 let t = Real::ratio(2 * k + 1, 40);
-                let [low, high] = halves(degree);
-                let twice = t + t;
-                let exact = point(&whole, t);
-                let found = if twice < Real::ONE {
-                    point(&(&whole * &low), twice)
+                let exact = value(&whole, &spline(&whole), t);
+                let found = if t < sigma {
+                    value(&whole, &low, t / sigma)
                 } else {
-                    point(&(&whole * &high), twice - Real::ONE)
+                    value(&outer, &high, (t - sigma) / (Real::ONE - sigma))
                 };
-                assert!(largest(&(&found - &exact)) < 1e-28, "degree {degree}");
+                assert!(largest(&(&found - &exact)) < 1e-25, "degree {degree}, sigma {p}/{q}");
+            }
+        }
+    }
+
+    #[test]
+    fn knots_are_equally_spaced_if_sigma_is_one_half() {
+        for (degree, count) in [(4, 2), (3, 3)] {
+            for knots in knots(degree, Real::ratio(1, 2)) {
+                for (k, knot) in knots.into_iter().enumerate() {
+                    let error = knot - Real::ratio(k as i32 + 1, count);
+                    assert!(error.abs().to_f64() < 1e-31);
+                }
             }
         }
     }

@@ -31,7 +31,7 @@ use crate::guided::bb::{ENDS, End, bb_from_taylor, restrict, taylor_at, units};
 use crate::guided::characteristic::{CharacteristicRing, SQUARES, Square};
 use crate::guided::composition::{composed, jet_at, sampled};
 use crate::guided::net::CNet;
-use crate::guided::pieces::{halves, num_pieces, quintic_parts, spline};
+use crate::guided::pieces::{knots, lines, parts, quintic_parts, spline};
 use crate::guided::space::{COEFS, DEGREE};
 use crate::linear::Matrix;
 use crate::real::Real;
@@ -43,9 +43,9 @@ pub enum Form {
     Bi6,
     /// One bi-5 patch per square: curvature bounded at the centre.
     Bi5,
-    /// 2 x 2 bi-4 patches per square; sigma = 1/2 only.
+    /// 2 x 2 bi-4 patches per square.
     Bi4,
-    /// 3 x 3 bi-3 patches per square; sigma = 1/2 only.
+    /// 3 x 3 bi-3 patches per square.
     Bi3,
 }
 
@@ -74,20 +74,34 @@ impl Form {
     fn border_parts(self, sigma: Real) -> [Matrix; 2] {
         match self {
             Self::Bi6 | Self::Bi5 => quintic_parts(self.degree(), sigma),
-            Self::Bi4 | Self::Bi3 => halves(self.degree()),
+            Self::Bi4 | Self::Bi3 => parts(&knots(self.degree(), sigma)[0], sigma),
         }
+    }
+
+    /// The lines between the patches of the inner squares' side `[0,sigma]` and of the outer side
+    /// `[sigma,1]`, both as parameters from 0 to 1.
+    pub fn lines(self, sigma: Real) -> [Vec<Real>; 2] {
+        knots(self.degree(), sigma).map(|knots| lines(&knots))
     }
 
     /// The patches of one square from its table, a table each: one, or 2 x 2 or 3 x 3 in the order
     /// (number along u) * (2 or 3) + (number along v).
-    pub fn patches(self, square: &Matrix) -> Vec<Matrix> {
+    pub fn patches(self, square: Square, sigma: Real, table: &Matrix) -> Vec<Matrix> {
         if self.degree() >= DEGREE {
-            return vec![square.clone()];
+            return vec![table.clone()];
         }
-        let (count, order) = (num_pieces(self.degree()), self.degree() + 1);
-        let along = spline(self.degree());
-        let rows = |k: usize| along.select_rows(&(k * order..(k + 1) * order).collect::<Vec<_>>());
-        let piece = |k: usize| &rows(k / count).kronecker(&rows(k % count)) * square;
+        let [inner, outer] = knots(self.degree(), sigma).map(|knots| spline(&knots));
+        let [of_u, of_v] = match square {
+            Square::A => [&outer, &inner],
+            Square::B => [&outer, &outer],
+            Square::C => [&inner, &outer],
+        };
+        let order = self.degree() + 1;
+        let count = inner.num_rows() / order;
+        let rows = |along: &Matrix, k: usize| {
+            along.select_rows(&(k * order..(k + 1) * order).collect::<Vec<_>>())
+        };
+        let piece = |k: usize| &rows(of_u, k / count).kronecker(&rows(of_v, k % count)) * table;
         (0..count * count).map(piece).collect()
     }
 }
@@ -113,7 +127,7 @@ pub struct Rings {
 }
 
 impl Rings {
-    /// The tables; for bi-4 and bi-3 rings the characteristic ring must have sigma = 1/2.
+    /// The tables.
     pub fn new(chi: &CharacteristicRing, form: Form) -> Self {
         let degree = form.sampled_degree();
         let border = Border { sigma: chi.sigma, degree, parts: form.border_parts(chi.sigma) };

@@ -6,7 +6,8 @@
 //! * every coordinate is a finite number;
 //! * every edge has one face, or two that run through it in opposite directions;
 //! * the faces around every vertex form one fan;
-//! * tags are on edges, vertices and faces that exist, and sharpness is 0 or more.
+//! * tags are on edges, vertices and faces that exist, and sharpness is 0 or more;
+//! * every primvar has finite values of one to four numbers, as many as it needs.
 //!
 //! ```text
 //!   three faces on      opposite           two fans at v
@@ -21,6 +22,10 @@
 //!
 //! A vertex in no face is no fault: it is reported and ignored. Nothing is asked of the shape:
 //! faces may be degenerate, pass through each other or lie upon each other.
+
+mod primvars;
+
+pub use primvars::PrimvarFault;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -50,7 +55,7 @@ impl Cage {
     ///
     /// All faults of one step; later steps assume that the earlier found none:
     /// 1. the numbers of vertices and faces (0 faces, 2^32 or more of either),
-    /// 2. positions, and each face for itself,
+    /// 2. positions, each face and each primvar for itself,
     /// 3. edges,
     /// 4. the fans of vertices,
     /// 5. the tags.
@@ -159,6 +164,7 @@ fn own_faults(mesh: &Mesh, max_count: usize) -> Vec<MeshError> {
     if errors.is_empty() {
         errors.extend(position_faults(&mesh.positions));
         errors.extend(face_faults(&mesh.faces, mesh.positions.len()));
+        errors.extend(primvars::faults(mesh));
     }
     errors
 }

@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use super::{FaceId, VertexId};
+use super::{FaceId, PrimvarFault, VertexId};
 use crate::point::Point;
 
 /// One fault of a mesh.
@@ -94,6 +94,13 @@ pub enum MeshError {
         what: Tagged,
         /// The sharpness.
         sharpness: f64,
+    },
+    /// A primvar has not what it needs.
+    Primvar {
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        fault: PrimvarFault,
     },
 }
 
@@ -190,6 +197,7 @@ impl MeshError {
                 "{} has sharpness {sharpness}: give it one from 0 (smooth) to 10 (sharp for ever)",
                 what.describe(names)
             ),
+            Self::Primvar { name, fault } => format!("primvar `{name}`: {fault}"),
         }
     }
 }

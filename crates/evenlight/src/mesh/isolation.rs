@@ -28,8 +28,10 @@ use std::collections::HashMap;
 use super::fan::{Features, PlacedFan, sectors};
 use super::nets::RegularNet;
 use super::refine::{Level, Origin};
-use super::sharpness::Sharpness;
-use super::{BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, Topology, VertexId, VertexRule};
+use super::sharpness::{Sharpness, half_edges_of};
+use super::{
+    BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, Topology, VertexId, VertexRule,
+};
 
 /// The place of an extraordinary point in the cage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -91,26 +93,43 @@ fn uncovered_points(cage: &Cage, boundary: BoundaryRule) -> Vec<Extraordinary> {
     vertices.chain(centres).collect()
 }
 
-/// Whether no surface is made over a face: it is a hole, or touches the boundary under the rule
-/// "none". Takes time linear in the number of holes.
+/// Whether no surface is made over a face, see [`omitted_faces`]. Takes time linear in the size of
+/// the cage.
 pub fn is_omitted(cage: &Cage, boundary: BoundaryRule, face: FaceId) -> bool {
-    cage.tags().holes.contains(&face) || is_left_out(cage.topology(), boundary, face)
+    omitted_faces(cage, boundary).binary_search(&face).is_ok()
 }
 
-fn is_left_out(topology: &Topology, boundary: BoundaryRule, face: FaceId) -> bool {
-    boundary == BoundaryRule::None
-        && topology.faces().corners(face).iter().any(|&v| topology.is_boundary(v))
-}
-
-/// The faces without a surface, in order.
+/// The faces without a surface, in order: holes, and under the rule "none" those with a vertex on
+/// the boundary, unless both boundary edges there have been made infinitely sharp.
 pub fn omitted_faces(cage: &Cage, boundary: BoundaryRule) -> Vec<FaceId> {
-    let faces = cage.topology().faces().ids();
-    let mut omitted: Vec<FaceId> =
-        faces.filter(|&f| is_left_out(cage.topology(), boundary, f)).collect();
-    omitted.extend(&cage.tags().holes);
+    let mut omitted = cage.tags().holes.clone();
+    if boundary == BoundaryRule::None {
+        let is_open = open_vertices(cage);
+        let faces = cage.topology().faces();
+        let touches = |f: &FaceId| faces.corners(*f).iter().any(|v| is_open[v.index()]);
+        omitted.extend(faces.ids().filter(touches));
+    }
     omitted.sort_unstable();
     omitted.dedup();
     omitted
+}
+
+/// Whether each vertex is at an edge of the boundary that no tag makes infinitely sharp.
+fn open_vertices(cage: &Cage) -> Vec<bool> {
+    let topology = cage.topology();
+    let mut is_sharp = vec![false; topology.half_edges().len()];
+    for crease in &cage.tags().creases {
+        for h in half_edges_of(topology, crease.edge) {
+            is_sharp[h.index()] = crease.sharpness >= INFINITELY_SHARP;
+        }
+    }
+    let mut is_open = vec![false; topology.num_vertices()];
+    let boundary = topology.half_edges().filter(|&h| topology.twin(h).is_none());
+    for h in boundary.filter(|h| !is_sharp[h.index()]) {
+        is_open[topology.origin(h).index()] = true;
+        is_open[topology.target(h).index()] = true;
+    }
+    is_open
 }
 
 /// What covers a part of a parametric quad.

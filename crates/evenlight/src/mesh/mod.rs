@@ -5,6 +5,7 @@
 //! ([`Topology`]) can be walked without a case that fails. Everything behind the cage is
 //! total: it cannot meet bad input any more.
 
+pub(crate) mod channel;
 mod check;
 mod fan;
 mod fault;
@@ -15,7 +16,7 @@ mod sharpness;
 mod tags;
 mod topology;
 
-pub use check::Cage;
+pub use check::{Cage, PrimvarFault};
 pub use fan::Fan;
 pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};

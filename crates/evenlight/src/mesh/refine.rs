@@ -236,9 +236,10 @@ impl<const N: usize> Masks<'_, N> {
         }
         let ends = [self.coarse.origin(h), self.coarse.target(h)];
         let middle = mean(ends.map(|v| self.at(v)));
-        // Averaging may keep both halves sharp, though the edge is below 1.
+        // Averaging may keep both halves sharp, though the edge is below 1; or end one of them,
+        // though it is above: then OpenSubdiv goes beyond the middle, and so do we.
         let stays = || ends.iter().all(|&v| self.sharpness.child_edge(self.coarse, h, v) > 0.0);
-        if sharpness >= 1.0 || stays() {
+        if stays() {
             return middle;
         }
         blend(sharpness, middle, self.smooth_edge(h))

@@ -17,13 +17,15 @@
 
 mod build;
 mod place;
+mod primvar;
 mod rule;
 
 pub use build::SurfaceError;
 pub use place::{PatchPlace, PlacedPatch, Role};
+pub use primvar::PrimvarJet;
 pub use rule::{PointRule, Reason};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::mesh::isolation::{CORNERS, Piece, Plan};
 use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, VertexId};
@@ -73,6 +75,8 @@ pub struct Surface {
     /// The rings around every extraordinary point.
     rings: Vec<Rings>,
     points: Vec<ExtraordinaryPoint>,
+    /// The primvars, built when first asked for.
+    channels: Vec<OnceLock<primvar::Channel>>,
 }
 
 /// An extraordinary point of the surface: an interior vertex of valence other than 4, the centre of
@@ -139,7 +143,8 @@ impl Surface {
         let rings: Vec<Rings> = rules.iter().enumerate().map(around).collect();
         let of_point = |(p, rings)| describe(&plan, p, rules[p].0, rings);
         let points = rings.iter().enumerate().map(of_point).collect();
-        Ok(Self { cage, options, plan, refined, rings, points })
+        let channels = primvar::unbuilt(&cage);
+        Ok(Self { cage, options, plan, refined, rings, points, channels })
     }
 
     /// The cage.

@@ -110,7 +110,8 @@ pub fn refine(mesh: &Mesh) -> Mesh {
         let middle = average(&[at(a), at(b)]);
         let s = t.sharpness[&[a, b]];
         let halves = [a, b].map(|v| child_sharpness(&t, method, [a, b], v));
-        positions.push(if s >= 1.0 || halves.iter().all(|&h| h > 0.0) && s > 0.0 {
+        // Beyond the middle, as OpenSubdiv, if averaging ends an edge that is sharper than 1.
+        positions.push(if halves.iter().all(|&h| h > 0.0) {
             middle
         } else {
             mix(s, middle, average(&[at(a), at(b), centre(around[0]), centre(around[1])]))

@@ -88,10 +88,13 @@ impl Model {
     }
 }
 
+/// Guides by valence and the bits of lambda.
+#[cfg(feature = "derive")]
+type Guides = BTreeMap<(usize, Option<u64>), Arc<RoundedGuide>>;
+
 /// The guides that were derived last: each takes some tenths of a second.
 #[cfg(feature = "derive")]
-static DERIVED: Mutex<BTreeMap<(usize, Option<u64>), Arc<RoundedGuide>>> =
-    Mutex::new(BTreeMap::new());
+static DERIVED: Mutex<Guides> = Mutex::new(BTreeMap::new());
 
 /// More guides than this, of 10 to 60 kB each, are not kept.
 #[cfg(feature = "derive")]

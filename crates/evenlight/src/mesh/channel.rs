@@ -1,0 +1,270 @@
+//! The cage of a face-varying channel: the faces of the positions' cage, with vertices of its own.
+//!
+//! Texture coordinates are themselves the control net of a Catmull-Clark surface. Corners of a
+//! vertex are one vertex of that net while no seam lies between them; an edge is a *seam* if its
+//! two faces have different values at one of its ends. Seams are boundaries:
+//!
+//! ```text
+//!   positions         values: a seam from the right that ends in d (a dart)
+//!   +--+--+           +--+--+
+//!   |  |  |           |  |  |
+//!   +--d--+           +--d--+      the faces around d are one fan, whose two ends are the
+//!   |  |  |           |  |\ '      two sides of the seam: d is a boundary vertex here
+//!   +--+--+           |  | \+
+//!                     +--+--+
+//! ```
+//!
+//! What a boundary does is the channel's [`FaceVaryingRule`]: its vertices lie on smooth curves, or
+//! are sharp. Creases and sharp vertices of the cage hold for the channel too.
+
+use std::collections::BTreeSet;
+
+use super::{
+    BoundaryRule, Cage, Corner, Crease, FaceVaryingRule, Faces, HalfEdgeId, INFINITELY_SHARP, Mesh,
+    Primvar, Tags, Topology, VertexId,
+};
+
+/// The faces of a channel, and the value at each of its vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ChannelNet {
+    /// The faces of the cage in their order, with the channel's own vertices.
+    pub(crate) faces: Faces,
+    /// Creases, corners and holes of the channel.
+    pub(crate) tags: Tags,
+    /// The number of the value at every vertex.
+    pub(crate) values: Vec<u32>,
+}
+
+impl ChannelNet {
+    /// The net of a face-varying channel of `cage`, whose positions have this boundary rule.
+    pub(crate) fn new(cage: &Cage, channel: &Primvar, boundary: BoundaryRule) -> Self {
+        let topology = cage.topology();
+        let values = &channel.indices[..];
+        let mut splitter = Splitter {
+            cage,
+            topology,
+            values,
+            boundary,
+            rule: cage.tags().face_varying,
+            edge_sharpness: edge_sharpness(cage),
+            vertex_sharpness: vertex_sharpness(cage),
+            of_corner: vec![VertexId(0); values.len()],
+            vertices: Vec::new(),
+            corners: Vec::new(),
+        };
+        (0..topology.num_vertices() as u32).for_each(|v| splitter.split(VertexId(v)));
+        let tags = splitter.tags();
+        let Splitter { of_corner, vertices, .. } = splitter;
+        let mut faces = Faces::default();
+        for face in topology.faces().ids() {
+            faces.push(topology.faces().corner_range(face).map(|corner| of_corner[corner]));
+        }
+        Self { faces, tags, values: vertices }
+    }
+
+    /// The net as a mesh whose positions are the numbers `first`, `first` + 1 and `first` + 2 of
+    /// the values, those that there are.
+    pub(crate) fn mesh(&self, channel: &Primvar, first: usize) -> Mesh {
+        let positions = self.values.iter().map(|&v| triple(channel, v as usize, first)).collect();
+        let (faces, tags) = (self.faces.clone(), self.tags.clone());
+        Mesh { positions, faces, tags, primvars: Vec::new() }
+    }
+}
+
+/// Three numbers of a value from number `first` on; what it has not is 0.
+pub(crate) fn triple(channel: &Primvar, value: usize, first: usize) -> [f64; 3] {
+    let numbers = &channel.values[value * channel.width..][..channel.width];
+    [0, 1, 2].map(|k| numbers.get(first + k).copied().unwrap_or(0.0))
+}
+
+/// The sharpness of every half-edge.
+fn edge_sharpness(cage: &Cage) -> Vec<f64> {
+    let topology = cage.topology();
+    let mut sharpness = vec![0.0; topology.half_edges().len()];
+    for crease in &cage.tags().creases {
+        for h in super::sharpness::half_edges_of(topology, crease.edge) {
+            sharpness[h.index()] = crease.sharpness;
+        }
+    }
+    sharpness
+}
+
+/// The sharpness of every vertex.
+fn vertex_sharpness(cage: &Cage) -> Vec<f64> {
+    let mut sharpness = vec![0.0; cage.positions().len()];
+    for corner in &cage.tags().corners {
+        sharpness[corner.vertex.index()] = corner.sharpness;
+    }
+    sharpness
+}
+
+/// The faces at a vertex between two seams, or all of them.
+struct Fan {
+    value: u32,
+    /// The half-edges that leave the vertex in front of each face.
+    faces: Vec<HalfEdgeId>,
+    /// The sharpness of the edges between the faces.
+    inner: Vec<f64>,
+}
+
+impl Fan {
+    fn has_infinite_edge(&self) -> bool {
+        self.inner.iter().any(|&s| s >= INFINITELY_SHARP)
+    }
+
+    /// The sharpness of the semi-sharp edges between the faces.
+    fn semi_sharp(&self) -> impl Iterator<Item = f64> + '_ {
+        self.inner.iter().copied().filter(|&s| 0.0 < s && s < INFINITELY_SHARP)
+    }
+}
+
+struct Splitter<'a> {
+    cage: &'a Cage,
+    topology: &'a Topology,
+    values: &'a [u32],
+    boundary: BoundaryRule,
+    rule: FaceVaryingRule,
+    edge_sharpness: Vec<f64>,
+    vertex_sharpness: Vec<f64>,
+    of_corner: Vec<VertexId>,
+    vertices: Vec<u32>,
+    corners: Vec<Corner>,
+}
+
+impl Splitter<'_> {
+    /// Makes the vertices of the channel at `v`, and says how sharp they are.
+    fn split(&mut self, v: VertexId) {
+        let fans = self.fans(v);
+        let sharpness = self.fan_sharpness(v, &fans);
+        for (fan, sharpness) in fans.iter().zip(sharpness) {
+            let vertex = VertexId(self.vertices.len() as u32);
+            self.vertices.push(fan.value);
+            fan.faces.iter().for_each(|h| self.of_corner[h.index()] = vertex);
+            if sharpness > 0.0 {
+                self.corners.push(Corner { vertex, sharpness });
+            }
+        }
+    }
+
+    fn value(&self, h: HalfEdgeId) -> u32 {
+        self.values[h.index()]
+    }
+
+    /// Whether the faces of the edge of `h` differ at one of its ends, or there is one only.
+    fn is_seam(&self, h: HalfEdgeId) -> bool {
+        let Some(twin) = self.topology.twin(h) else { return true };
+        let next = |h| self.topology.next(h);
+        self.value(h) != self.value(next(twin)) || self.value(next(h)) != self.value(twin)
+    }
+
+    /// The fans at `v`, counter-clockwise.
+    fn fans(&self, v: VertexId) -> Vec<Fan> {
+        let mut ring: Vec<HalfEdgeId> = self.topology.ring(v).collect();
+        let seam = ring.iter().position(|&h| self.is_seam(h));
+        ring.rotate_left(seam.unwrap_or(0));
+        let mut fans: Vec<Fan> = Vec::new();
+        for (k, &h) in ring.iter().enumerate() {
+            match fans.last_mut() {
+                Some(fan) if !self.is_seam(h) => {
+                    fan.faces.push(h);
+                    fan.inner.push(self.edge_sharpness[h.index()]);
+                }
+                _ => {
+                    // A ring without a seam closes at its first edge.
+                    let inner = if k == 0 && seam.is_none() {
+                        vec![self.edge_sharpness[h.index()]]
+                    } else {
+                        vec![]
+                    };
+                    fans.push(Fan { value: self.value(h), faces: vec![h], inner });
+                }
+            }
+        }
+        fans
+    }
+
+    /// The sharpness of the channel's vertices at `v`.
+    fn fan_sharpness(&self, v: VertexId, fans: &[Fan]) -> Vec<f64> {
+        let own = self.vertex_sharpness[v.index()];
+        let is_boundary = self.topology.is_boundary(v);
+        let seams = fans.iter().map(|fan| fan.faces[0]).filter(|&h| self.is_seam(h));
+        let num_seams = seams.filter(|&h| self.topology.twin(h).is_some()).count();
+        if num_seams == 0 {
+            let is_sharp = is_boundary && self.is_sharp_boundary(fans);
+            return vec![if is_sharp { f64::INFINITY } else { own }; fans.len()];
+        }
+        if own >= INFINITELY_SHARP || self.are_all_sharp(fans, is_boundary) {
+            return vec![f64::INFINITY; fans.len()];
+        }
+        let sharpness = fans.iter().map(|fan| {
+            let alone = || fans.iter().filter(|other| other.value == fan.value).count() == 1;
+            let is_tip = fan.faces.len() == 1 && self.rule != FaceVaryingRule::None;
+            let is_sharp = is_tip || fan.has_infinite_edge() || !alone();
+            if is_sharp { f64::INFINITY } else { own.max(self.dependent_sharpness(fans, fan)) }
+        });
+        sharpness.collect()
+    }
+
+    /// Whether the boundary of the cage is sharp at a vertex without seams.
+    fn is_sharp_boundary(&self, fans: &[Fan]) -> bool {
+        let is_tip = fans.iter().all(|fan| fan.faces.len() == 1);
+        let tips_are_sharp =
+            self.rule != FaceVaryingRule::None || self.boundary == BoundaryRule::EdgeAndCorner;
+        self.has_sharp_seams() || is_tip && tips_are_sharp
+    }
+
+    fn has_sharp_seams(&self) -> bool {
+        matches!(self.rule, FaceVaryingRule::Boundaries | FaceVaryingRule::All)
+    }
+
+    /// Whether fans depend on each other.
+    fn has_dependence(&self) -> bool {
+        matches!(self.rule, FaceVaryingRule::CornersPlus1 | FaceVaryingRule::CornersPlus2)
+    }
+
+    /// Whether all vertices of the channel are sharp at a vertex with a seam.
+    fn are_all_sharp(&self, fans: &[Fan], is_boundary: bool) -> bool {
+        let values: BTreeSet<u32> = fans.iter().map(|fan| fan.value).collect();
+        let plus2 = self.rule == FaceVaryingRule::CornersPlus2;
+        let is_broken = || fans.len() > values.len() || fans.iter().any(Fan::has_infinite_edge);
+        let has_tip = || fans.iter().any(|fan| fan.faces.len() == 1);
+        self.has_sharp_seams()
+            || match values.len() {
+                1 => plus2 && !is_boundary,
+                2 => self.has_dependence() && is_broken() || plus2 && has_tip(),
+                _ => self.has_dependence(),
+            }
+    }
+
+    /// Beside a fan with semi-sharp edges, which is a corner for some refinements, one without
+    /// is a corner for as long.
+    fn dependent_sharpness(&self, fans: &[Fan], fan: &Fan) -> f64 {
+        if !self.has_dependence() || fans.len() != 2 || fan.semi_sharp().next().is_some() {
+            return 0.0;
+        }
+        fans.iter().flat_map(Fan::semi_sharp).fold(0.0, f64::max)
+    }
+
+    /// The tags of the channel.
+    fn tags(&self) -> Tags {
+        let tags = self.cage.tags();
+        let creases = self.topology.half_edges().filter(|&h| {
+            // Once per edge that is none of the channel's boundaries.
+            let is_first = self.topology.twin(h).is_some_and(|twin| h < twin);
+            is_first && self.edge_sharpness[h.index()] > 0.0 && !self.is_seam(h)
+        });
+        let of = |h: HalfEdgeId| self.of_corner[h.index()];
+        let crease = |h: HalfEdgeId| Crease {
+            edge: [of(h), of(self.topology.next(h))],
+            sharpness: self.edge_sharpness[h.index()],
+        };
+        Tags {
+            boundary: BoundaryRule::EdgeOnly,
+            crease_method: tags.crease_method,
+            face_varying: self.rule,
+            creases: creases.map(crease).collect(),
+            corners: self.corners.clone(),
+            holes: tags.holes.clone(),
+        }
+    }
+}
