@@ -63,6 +63,11 @@ impl ValenceRules {
         Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
     }
 
+    /// Whether these are the rules of a fan, which do not commute with turning.
+    pub(crate) fn is_fan(&self) -> bool {
+        self.fan.is_some()
+    }
+
     pub(crate) fn kind(&self) -> SchemeKind {
         self.kind
     }

@@ -6,6 +6,7 @@ mod common;
 
 use common::Random;
 use common::refine::refine;
+use evenlight::cap::{Cap, CapError, CapOptions};
 use evenlight::mesh::{BoundaryRule, Corner, Crease, CreaseMethod, Tags, VertexRule};
 use evenlight::point::{norm, sub};
 use evenlight::surface::{PatchPlace, PointRule, Reason};
@@ -334,6 +335,16 @@ fn schemes_differ_at_smooth_extraordinary_points_only() {
                 assert_eq!(cc.patch(p), other.patch(q));
             }
         }
+    }
+}
+
+/// Caps are for points that are smooth all around; elsewhere they say so.
+#[test]
+fn there_are_no_caps_on_sharp_edges() {
+    let surface = surface_of(&starred(6, &[0, 3], 17), SchemeKind::Qas4);
+    for point in 0..surface.extraordinary_points().len() {
+        let found = Cap::new(surface.rings(point), CapOptions::default());
+        assert_eq!(found.err(), Some(CapError::Sharp));
     }
 }
 

@@ -90,6 +90,9 @@ pub enum CapError {
         /// The scheme.
         scheme: SchemeKind,
     },
+    /// No caps between sharp edges.
+    #[error("there are no caps on the boundary, on sharp edges and at sharp vertices, only rings")]
+    Sharp,
     /// No caps at this valence.
     #[error("there are caps for valences 3 to {MAX_VALENCE} (not 4), not for {valence}")]
     Valence {
@@ -249,6 +252,9 @@ pub(crate) struct ValenceCap {
 
 impl ValenceCap {
     pub(crate) fn new(rules: &ValenceRules, kind: CapKind) -> Result<Self, CapError> {
+        if rules.is_fan() {
+            return Err(CapError::Sharp);
+        }
         let (scheme, rules, subdominant) = (rules.kind(), rules.rules(), rules.subdominant());
         let valence = rules.valence;
         if valence == 4 || !(3..=MAX_VALENCE).contains(&valence) {
