@@ -6,6 +6,8 @@
 #[cfg(feature = "library")]
 mod bench;
 #[cfg(feature = "library")]
+mod caps;
+#[cfg(feature = "library")]
 mod demo_cage;
 #[cfg(feature = "library")]
 mod document;
@@ -34,6 +36,8 @@ enum Chore {
     #[cfg(feature = "library")]
     Bench(bench::Arguments),
     #[cfg(feature = "library")]
+    Caps(caps::Arguments),
+    #[cfg(feature = "library")]
     DemoCage(demo_cage::Arguments),
     FeatureCages(feature_cages::Arguments),
     #[cfg(feature = "library")]
@@ -61,6 +65,8 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
     match chore {
         #[cfg(feature = "library")]
         Chore::Bench(arguments) => bench::run(arguments),
+        #[cfg(feature = "library")]
+        Chore::Caps(arguments) => caps::run(arguments),
         #[cfg(feature = "library")]
         Chore::DemoCage(arguments) => demo_cage::run(arguments),
         Chore::FeatureCages(arguments) => feature_cages::run(arguments),

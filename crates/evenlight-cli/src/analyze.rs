@@ -7,16 +7,19 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use clap::Args;
+use evenlight::analyse::caps::{CapReport, cap_report};
 use evenlight::analyse::continuity::Jumps;
 use evenlight::analyse::curvature::{
     CurvatureReport, PointReport, RingCurvature, curvature_report,
 };
 use evenlight::analyse::shape::{PointShape, shape};
+use evenlight::cap::CapKind;
 use evenlight::surface::ExtraordinaryPoint;
 use evenlight::{SchemeKind, Surface, SurfaceOptions};
 
+use crate::cap::{self, CapArg};
 use crate::error::Failure;
-use crate::input::{self, CageArg};
+use crate::input::{self, CageArg, Source};
 use crate::options::{BoundaryArg, RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
@@ -43,10 +46,13 @@ pub struct AnalyzeArgs {
     #[command(flatten)]
     q: QArg,
 
-    /// Number of rings around every extraordinary point, 1 to 100; ring k reaches to 2^-k of a
-    /// sector (at contraction cc)
-    #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=100))]
+    /// Number of rings around every extraordinary point, 1 to 100 (0 with --cap); ring k reaches to
+    /// 2^-k of a sector (at contraction cc)
+    #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=100))]
     rings: u8,
+
+    #[command(flatten)]
+    cap: CapArg,
 
     /// All extraordinary points in the table, not only the dozen where H varies most near the
     /// point (the JSON has all anyway)
@@ -74,8 +80,21 @@ pub const LEGEND: [&str; 5] = [
      curvature (1/unit) across all patch borders.",
 ];
 
+/// What the columns of the table of caps mean.
+const CAP_LEGEND: [&str; 2] = [
+    "caps: the largest jumps of position (G0, units), tangent plane (G1, radians) and curvature (G2, \
+     over the largest curvature of the cap) across the lines between sectors, between the patches \
+     inside a sector, and to the last ring.",
+    "H outside: how far H of the cap leaves its range over the last two rings, over the largest \
+     curvature of the cap.",
+];
+
 /// Runs `evenlight analyze`.
 pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
+    let cap = args.cap.kind(&args.schemes)?;
+    if cap.is_none() && args.rings == 0 {
+        return Err(Failure::Usage("--rings 0 is for surfaces with caps: add --cap".to_owned()));
+    }
     let edits = args.q.read(&args.cage.source, &args.schemes)?;
     let cage = input::read_cage(&args.cage)?;
     let progress = Progress::new(args.schemes.len(), quiet);
@@ -88,7 +107,9 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
         progress.stage(format!("Analysing {}", scheme.name()));
         let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;
-        analyses.push(Analysis::of(surface, args.rings.into()));
+        let mut analysis = Analysis::of(surface, args.rings.into());
+        analysis.close(cap, args.rings.into(), &args.cage.source)?;
+        analyses.push(analysis);
         progress.step();
     }
     input::report_omitted(&analyses[0].surface, &args.cage.source)?;
@@ -104,6 +125,8 @@ pub struct Analysis {
     surface: Surface,
     report: CurvatureReport,
     shapes: Vec<PointShape>,
+    /// Of the caps behind these rings, if there are any.
+    caps: Vec<CapReport>,
 }
 
 impl Analysis {
@@ -111,7 +134,19 @@ impl Analysis {
     pub fn of(surface: Surface, rings: usize) -> Self {
         let report = curvature_report(&surface, rings);
         let shapes = shape(&surface, rings);
-        Self { surface, report, shapes }
+        Self { surface, report, shapes, caps: Vec::new() }
+    }
+
+    /// Closes the surface and measures the caps too.
+    fn close(
+        &mut self,
+        kind: Option<CapKind>,
+        rings: usize,
+        source: &Source,
+    ) -> Result<(), Failure> {
+        cap::close(&mut self.surface, kind, rings, source)?;
+        self.caps = cap_report(&self.surface);
+        Ok(())
     }
 
     /// The surface.
@@ -144,7 +179,10 @@ impl Analysis {
     fn points(&self) -> impl Iterator<Item = Point<'_>> {
         let places = self.surface.extraordinary_points().iter();
         let measured = self.report.points.iter().zip(&self.shapes);
-        places.zip(measured).map(|(place, (report, shape))| Point { place, report, shape })
+        places.zip(measured).map(|(place, (report, shape))| {
+            let cap = self.caps.iter().find(|cap| cap.point == report.point);
+            Point { place, report, shape, cap }
+        })
     }
 }
 
@@ -154,6 +192,7 @@ struct Point<'a> {
     place: &'a ExtraordinaryPoint,
     report: &'a PointReport,
     shape: &'a PointShape,
+    cap: Option<&'a CapReport>,
 }
 
 /// The most points of a table that is to be short.
@@ -168,6 +207,10 @@ fn write_text(analyses: &[Analysis], all: bool, out: &mut dyn Write) -> io::Resu
         writeln!(out, "{} of {count} points; all of them with --all\n", shown.len())?;
     }
     writeln!(out, "{}", jump_table(analyses))?;
+    if analyses.iter().any(|analysis| !analysis.caps.is_empty()) {
+        writeln!(out, "{}", cap_table(analyses, wanted))?;
+        CAP_LEGEND.iter().try_for_each(|line| writeln!(out, "{line}"))?;
+    }
     LEGEND.iter().try_for_each(|line| writeln!(out, "{line}"))
 }
 
@@ -219,7 +262,7 @@ pub fn point_table(
     table
 }
 
-fn point_row(scheme: &str, Point { place, report, shape }: Point) -> Vec<String> {
+fn point_row(scheme: &str, Point { place, report, shape, .. }: Point) -> Vec<String> {
     let RingCurvature { gauss, mean } = report.total;
     let ranges = [gauss.min, gauss.max, mean.min, mean.max, growth(report)];
     let shape = [shape.along_rays, shape.around_rings, shape.energy];
@@ -237,6 +280,50 @@ pub fn jump_table(analyses: &[Analysis]) -> Table {
         table.push([analysis.scheme().to_owned()].into_iter().chain(numbers));
     }
     table
+}
+
+/// The caps of the extraordinary points that are `wanted`, the schemes one below the other.
+fn cap_table(analyses: &[Analysis], wanted: impl Fn(usize) -> bool) -> Table {
+    let mut table = Table::new(&[
+        "point",
+        "scheme",
+        "cap",
+        "G0",
+        "G1 lines",
+        "G1 ring",
+        "G2 lines",
+        "G2 inside",
+        "G2 ring",
+        "H min",
+        "H max",
+        "H outside",
+    ]);
+    let points = analyses[0].surface.extraordinary_points();
+    for (point, place) in points.iter().enumerate().filter(|&(point, _)| wanted(point)) {
+        for analysis in analyses {
+            let caps = analysis.caps.iter().filter(|cap| cap.point == point);
+            caps.for_each(|cap| table.push(cap_row(&point_name(place), analysis.scheme(), cap)));
+        }
+    }
+    table
+}
+
+fn cap_row(point: &str, scheme: &str, cap: &CapReport) -> Vec<String> {
+    let position = [cap.lines, cap.inside, cap.ring].map(|d| d.position).into_iter();
+    let numbers = [
+        position.fold(0.0, f64::max),
+        cap.lines.tangent_plane,
+        cap.ring.tangent_plane,
+        cap.lines.curvature,
+        cap.inside.curvature,
+        cap.ring.curvature,
+        cap.curvature.mean.min,
+        cap.curvature.mean.max,
+        cap.excess().unwrap_or(f64::NAN),
+    ];
+    let kind = format!("bi-{} {m} x {m}", cap.degree, m = cap.split);
+    let names = [point.to_owned(), scheme.to_owned(), kind];
+    names.into_iter().chain(numbers.map(short)).collect()
 }
 
 /// How much longer the range of H is in the last ring than in the first: above 1 where

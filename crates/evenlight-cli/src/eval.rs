@@ -11,6 +11,7 @@ use clap::Args;
 use evenlight::{FaceId, QuadId, Surface, SurfacePoint};
 use rayon::prelude::*;
 
+use crate::cap::CapRingsArg;
 use crate::error::Failure;
 use crate::input::{self, Source, WHY_OMITTED};
 use crate::options::SurfaceArgs;
@@ -23,6 +24,9 @@ pub struct EvalArgs {
     #[command(flatten)]
     surface: SurfaceArgs,
 
+    #[command(flatten)]
+    caps: CapRingsArg,
+
     /// The parameters: rows `face,u,v` with u and v in [0,1], or `face,u,v,corner` for faces
     /// that are no quads; all counted from 0. A header line, blank lines and comments (#) are
     /// skipped. `-` for stdin
@@ -33,7 +37,8 @@ pub struct EvalArgs {
     /// nx,ny,nz, Gauss curvature K (1/length^2) and mean curvature H (1/length), with 17
     /// digits; `-` for stdout
     ///
-    /// At an extraordinary point itself derivatives do not exist: they are `nan`. K and H are
+    /// At an extraordinary point itself, unless --cap closes it, derivatives do not exist: they are
+    /// `nan`. K and H are
     /// those of the quadratic there for qas3 and qas4, and `nan` for the other schemes, whose
     /// curvature has no limit.
     #[arg(short, long, value_name = "FILE", default_value = "-")]
@@ -52,7 +57,7 @@ pub fn run(args: &EvalArgs, quiet: bool) -> Result<(), Failure> {
     let q = q.file.iter().map(|file| ("--q", file));
     let sources = [("cage", &cage.source), ("points", &args.points)];
     input::refuse_shared_stdin(&sources.into_iter().chain(q).collect::<Vec<_>>())?;
-    let surface = input::read_surface(&args.surface)?;
+    let surface = args.caps.read(&args.surface)?;
     let text = args.points.read_text()?;
     evaluate(&surface, &args.points, &text, &args.output, quiet)
 }

@@ -12,6 +12,7 @@
 //! ```
 
 mod analyze;
+mod cap;
 mod check;
 mod convert;
 mod demo;

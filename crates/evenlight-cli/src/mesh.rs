@@ -5,8 +5,8 @@ use evenlight::Surface;
 use evenlight::io::{obj_out, ply_out, stl};
 use evenlight::tessellate::{TriangleMesh, tessellate};
 
+use crate::cap::CapRingsArg;
 use crate::error::Failure;
-use crate::input;
 use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
@@ -16,6 +16,9 @@ use crate::progress::Progress;
 pub struct MeshArgs {
     #[command(flatten)]
     surface: SurfaceArgs,
+
+    #[command(flatten)]
+    caps: CapRingsArg,
 
     /// The file to write: .obj with normals, .ply with normals and curvature, or .stl; `-` for
     /// stdout
@@ -47,7 +50,7 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let format = args.output.format(args.format)?;
     let progress = Progress::new(3, quiet);
     progress.stage("Building the surface");
-    let surface = input::read_surface(&args.surface)?;
+    let surface = args.caps.read(&args.surface)?;
     progress.step();
     progress.stage("Evaluating vertices");
     let mesh = triangles(&surface, args.rate.into())?;

@@ -8,8 +8,8 @@ use evenlight::io::bv;
 use evenlight::surface::{PlacedPatch, Role};
 use serde::{Serialize, Serializer};
 
+use crate::cap::CapArg;
 use crate::error::Failure;
-use crate::input;
 use crate::options::{SurfaceArgs, rules_name};
 use crate::output::Target;
 use crate::progress::Progress;
@@ -32,6 +32,9 @@ pub struct PatchesArgs {
     /// (at contraction cc)
     #[arg(long, value_name = "K", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=48))]
     rings: u8,
+
+    #[command(flatten)]
+    cap: CapArg,
 }
 
 /// Files that hold patches.
@@ -48,13 +51,13 @@ pub fn run(args: &PatchesArgs, quiet: bool) -> Result<(), Failure> {
     let format = args.output.format(args.format)?;
     let progress = Progress::new(2, quiet);
     progress.stage("Building the surface");
-    let surface = input::read_surface(&args.surface)?;
+    let surface = args.cap.read(&args.surface, args.rings)?;
     progress.step();
     progress.stage("Writing patches");
     write(&surface, args.rings.into(), format, &args.output)
 }
 
-/// Writes all regular patches and `rings` rings of `surface`.
+/// Writes all regular patches, `rings` rings and, if it is closed, the caps of `surface`.
 pub fn write(
     surface: &Surface,
     rings: usize,
@@ -148,12 +151,13 @@ fn role_name(role: Role) -> String {
     match role {
         Role::Regular => "regular".to_owned(),
         Role::Ring(k) => format!("ring-{k}"),
+        Role::Cap => "cap".to_owned(),
     }
 }
 
 fn ring(role: Role) -> Option<usize> {
     match role {
-        Role::Regular => None,
+        Role::Regular | Role::Cap => None,
         Role::Ring(k) => Some(k),
     }
 }

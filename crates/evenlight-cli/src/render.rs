@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use evenlight::picture::{self, MAX_SIDE, Picture, RenderOptions, View};
 use evenlight::{SchemeKind, Surface, VertexId};
 
+use crate::cap::{self, CapRingsArg};
 use crate::error::Failure;
 use crate::input;
 use crate::options::{SurfaceArgs, parse_pair, parse_point, scheme_parser};
@@ -17,6 +18,9 @@ use crate::progress::Progress;
 pub struct RenderArgs {
     #[command(flatten)]
     surface: SurfaceArgs,
+
+    #[command(flatten)]
+    caps: CapRingsArg,
 
     /// Schemes to show side by side, as `cc,eg,qas4`, with one camera and one range of colours
     #[arg(
@@ -178,12 +182,14 @@ fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
     let source = &cage.source;
     let single = [*scheme];
     let schemes = if args.compare.is_empty() { &single[..] } else { &args.compare };
+    let kind = args.caps.cap.kind(schemes)?;
     let edits = q.read(source, schemes)?;
     let cage = input::read_cage(cage)?;
     let build = |&scheme| -> Result<Surface, Failure> {
         let options = args.surface.rules.options_among(schemes, scheme);
         let mut surface = input::build(Arc::clone(&cage), options, source)?;
         edits.apply(&mut surface)?;
+        cap::close(&mut surface, kind, args.caps.rings.into(), source)?;
         Ok(surface)
     };
     let surfaces = schemes.iter().map(build).collect::<Result<Vec<_>, _>>()?;

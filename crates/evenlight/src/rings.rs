@@ -63,7 +63,7 @@ impl ValenceRules {
         Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
     }
 
-    /// Whether these are the rules of a fan, which do not commute with turning.
+    /// Whether they are of a fan between sharp edges, which has no turns.
     pub(crate) fn is_fan(&self) -> bool {
         self.fan.is_some()
     }
@@ -285,6 +285,17 @@ impl Rings {
     /// polynomial is extrapolated if (a,b) is not in the patch.
     pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
         self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring, self.sigma())))
+    }
+
+    /// Parameters of a sector as those of the hole in front of ring `ring`, the hole being the unit
+    /// square.
+    pub(crate) fn in_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
+        at.map(|x| scaled_up(x, ring, self.sigma()))
+    }
+
+    /// The inverse of [`Rings::in_hole`].
+    pub(crate) fn out_of_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
+        at.map(|x| (0..ring).fold(x, |x, _| self.sigma() * x))
     }
 
     /// A patch at (A,B) = (a,b) / sigma^ring.

@@ -97,7 +97,7 @@ fn sectors_have_common_tangent_planes(name: &str, rings: &Rings, cap: &Cap) {
 
 /// Position and first derivatives of the ring in front, or of the ring that would be next.
 fn rings_are_continued_with_first_derivatives(name: &str, rings: &Rings, cap: &Cap) {
-    let hole = 0.5_f64.powi(cap.rings() as i32);
+    let hole = rings.sigma().powi(cap.rings() as i32);
     let size = size(rings, cap);
     for (s, t) in (0..rings.valence()).flat_map(|s| steps(24).map(move |t| (s, t))) {
         for at in [[1.0, t], [t, 1.0]] {
@@ -145,6 +145,31 @@ fn caps_of_plane_nets_are_plane_and_regular() {
             }
         }
     });
+}
+
+/// Rings that shrink at another speed; those cut in unequal parts have no caps.
+#[test]
+#[cfg(feature = "derive")]
+fn caps_join_rings_of_any_contraction() {
+    use evenlight::{Contraction, scheme::Variant};
+    for (n, scheme) in [3, 5, 8].into_iter().flat_map(|n| SchemeKind::ALL.map(|s| (n, s))) {
+        let contraction = Contraction::Lambda(0.42);
+        if scheme.check_contraction(contraction).is_err() {
+            continue;
+        }
+        let variant = Variant { contraction, ..Variant::default() };
+        let rings = Rings::from_cnet(&crooked(n), scheme, variant).expect("they have rules");
+        for count in [0, 3] {
+            for (kind, cap) in caps(&rings, count) {
+                let name = format!("{} {} n = {n}, {count} rings", scheme.name(), kind.name());
+                sectors_have_common_tangent_planes(&name, &rings, &cap);
+                rings_are_continued_with_first_derivatives(&name, &rings, &cap);
+                the_centre_has_one_quadratic(&name, &rings, &cap);
+            }
+        }
+        let bi6 = Cap::new(&rings, CapOptions { rings: 3, kind: CapKind::Bi6 });
+        assert_eq!(bi6.is_ok(), rings.patches_per_sector() == 3, "{}", scheme.name());
+    }
 }
 
 /// Behind l rings of a characteristic net the cap is that of none, scaled by lambda^l.

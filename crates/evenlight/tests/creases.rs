@@ -344,7 +344,7 @@ fn there_are_no_caps_on_sharp_edges() {
     let surface = surface_of(&starred(6, &[0, 3], 17), SchemeKind::Qas4);
     for point in 0..surface.extraordinary_points().len() {
         let found = Cap::new(surface.rings(point), CapOptions::default());
-        assert_eq!(found.err(), Some(CapError::Sharp));
+        assert_eq!(found.err(), Some(CapError::Fan));
     }
 }
 

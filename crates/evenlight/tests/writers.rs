@@ -198,6 +198,7 @@ fn bv_gives_back_every_patch_to_the_last_bit() {
         let is_of_group = |p: &PlacedPatch| match p.role {
             Role::Regular => group.name == "regular",
             Role::Ring(k) => group.name == format!("ring-{k}"),
+            Role::Cap => group.name == "cap",
         };
         let patches: Vec<Patch> = surface.patches(4).filter(is_of_group).map(|p| p.patch).collect();
         assert_eq!(group.patches, patches, "{}", group.name);

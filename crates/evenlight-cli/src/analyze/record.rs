@@ -1,5 +1,6 @@
 //! The analysis as JSON. What does not exist (a range of nothing, a ratio to zero) is `null`.
 
+use evenlight::analyse::caps::{CapReport, Defect};
 use evenlight::analyse::continuity::Jumps;
 use evenlight::analyse::curvature::{Range, RingCurvature};
 use serde::Serialize;
@@ -56,6 +57,35 @@ struct PointRecord {
     /// The largest jumps across the borders of all patches around the point.
     jumps: JumpRecord,
     rings: Vec<RingRecord>,
+    /// The cap behind these rings; `null` without --cap, and where there is none.
+    cap: Option<CapRecord>,
+}
+
+/// What was measured of a cap.
+#[derive(Serialize)]
+struct CapRecord {
+    degree: usize,
+    /// So many patches stand along each side of a sector.
+    split: usize,
+    lines: DefectRecord,
+    inside: DefectRecord,
+    ring: DefectRecord,
+    gauss: RangeRecord,
+    mean: RangeRecord,
+    /// How far the mean curvature leaves its range over the last two rings, over the largest
+    /// curvature of the cap; `null` without rings.
+    mean_outside: Option<f64>,
+}
+
+/// The largest jumps across some borders of a cap.
+#[derive(Serialize)]
+struct DefectRecord {
+    /// In units of the cage.
+    position: f64,
+    /// The angle between the normals, in radians.
+    tangent_plane: f64,
+    /// Of the principal curvatures, over the largest of the cap.
+    curvature: f64,
 }
 
 /// The ranges in one ring.
@@ -106,7 +136,7 @@ impl SchemeRecord {
 }
 
 impl PointRecord {
-    fn new(Point { place, report, shape }: Point) -> Self {
+    fn new(Point { place, report, shape, cap }: Point) -> Self {
         let ring = |(k, r): (usize, &RingCurvature)| RingRecord {
             ring: k + 1,
             gauss: r.gauss.into(),
@@ -127,7 +157,30 @@ impl PointRecord {
             mean_jump_across_rings: report.mean_jump_across_rings,
             jumps: report.jumps.into(),
             rings: report.rings.iter().enumerate().map(ring).collect(),
+            cap: cap.map(CapRecord::new),
         }
+    }
+}
+
+impl CapRecord {
+    fn new(cap: &CapReport) -> Self {
+        Self {
+            degree: cap.degree,
+            split: cap.split,
+            lines: cap.lines.into(),
+            inside: cap.inside.into(),
+            ring: cap.ring.into(),
+            gauss: cap.curvature.gauss.into(),
+            mean: cap.curvature.mean.into(),
+            mean_outside: cap.excess(),
+        }
+    }
+}
+
+impl From<Defect> for DefectRecord {
+    fn from(defect: Defect) -> Self {
+        let Defect { position, tangent_plane, curvature } = defect;
+        Self { position, tangent_plane, curvature }
     }
 }
 

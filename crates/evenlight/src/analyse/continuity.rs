@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use crate::mesh::FaceId;
 use crate::patch::{Jet, SurfacePoint};
 use crate::point::{Vector, cross, dot, norm, scale, sub};
-use crate::surface::{PatchPlace, QuadId, Surface};
+use crate::surface::{PatchPlace, QuadId, Role, Surface};
 
 /// The largest jumps over a set of border points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -68,7 +68,8 @@ pub struct Continuity {
 
 /// Samples `samples` points inside every patch border of the surface with `rings` rings.
 ///
-/// The inner border of the last ring is compared with the ring behind it.
+/// The inner border of the last ring is compared with the ring behind it. Caps, which join in other
+/// parameters, are left out: [`cap_report`](super::caps::cap_report) measures them.
 pub fn continuity(surface: &Surface, rings: usize, samples: usize) -> Continuity {
     let num_points = surface.extraordinary_points().len();
     let mut result = Continuity {
@@ -100,7 +101,7 @@ pub fn continuity(surface: &Surface, rings: usize, samples: usize) -> Continuity
 
 fn patches_by_quad(surface: &Surface, rings: usize) -> BTreeMap<QuadId, Vec<PatchPlace>> {
     let mut quads: BTreeMap<QuadId, Vec<PatchPlace>> = BTreeMap::new();
-    for patch in surface.patch_places(rings) {
+    for patch in surface.patch_places(rings).filter(|patch| patch.role != Role::Cap) {
         quads.entry(patch.quad).or_default().push(patch);
     }
     quads
@@ -150,7 +151,7 @@ fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -
             }
             jumps = jumps.max(beyond);
         }
-    } else if alone {
+    } else if alone && patches[k].point.is_none_or(|point| surface.cap(point).is_none()) {
         // The inner border of the last ring: evaluation answers with the ring behind it.
         if let Some(there) = surface.eval(patches[k].quad, at[0], at[1]) {
             jumps = jumps.max(compare(&here, &there, size));

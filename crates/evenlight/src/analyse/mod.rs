@@ -1,5 +1,6 @@
 //! Interrogation of surfaces: numbers and functions that show their quality.
 
+pub mod caps;
 pub mod continuity;
 pub mod curvature;
 pub mod highlight;

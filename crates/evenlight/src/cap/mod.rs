@@ -16,7 +16,7 @@
 //! Caps join the last ring, or for K = 0 the surrounding surface, with first derivatives; position
 //! and tangent plane are common on the lines; and all sectors have one quadratic at the centre, that
 //! of the scheme's q or guide if it has one, so that curvature exists there. What freedom is left
-//! follows the guide or bends least ([`rules`]).
+//! follows the guide or bends least (module `rules`).
 //!
 //! If the patches of a ring are split themselves, a cap is split in the smallest multiple of that.
 
@@ -90,9 +90,21 @@ pub enum CapError {
         /// The scheme.
         scheme: SchemeKind,
     },
-    /// No caps between sharp edges.
-    #[error("there are no caps on the boundary, on sharp edges and at sharp vertices, only rings")]
-    Sharp,
+    /// The rings are cut elsewhere than a cap.
+    #[error(
+        "scheme {} cuts its rings in {split} unequal parts at this contraction, which a cap cannot \
+         continue; take contraction cc, or guided5 or guided6",
+        scheme.name()
+    )]
+    Cuts {
+        /// The scheme.
+        scheme: SchemeKind,
+        /// The patches along each side of a square of its rings.
+        split: usize,
+    },
+    /// No caps at points on a boundary or on sharp edges.
+    #[error("points on a boundary or on sharp edges have none")]
+    Fan,
     /// No caps at this valence.
     #[error("there are caps for valences 3 to {MAX_VALENCE} (not 4), not for {valence}")]
     Valence {
@@ -123,7 +135,7 @@ impl CapKind {
     pub fn of_scheme(scheme: SchemeKind) -> Self {
         match scheme {
             SchemeKind::Guided6 => Self::Bi6,
-            SchemeKind::Guided4 => Self::Bi4,
+            SchemeKind::Guided3 | SchemeKind::Guided4 => Self::Bi4,
             _ => Self::Bi5,
         }
     }
@@ -137,6 +149,16 @@ impl CapKind {
             Self::Bi5 => 5,
             Self::Bi6 => 6,
         }
+    }
+
+    /// Whether caps of this kind can join the rings of a scheme.
+    ///
+    /// # Errors
+    ///
+    /// [`CapError::Degree`] if the rings are of a higher degree.
+    pub fn check(self, scheme: SchemeKind) -> Result<(), CapError> {
+        let (ring, cap) = (scheme.degree(), self.degree(scheme));
+        if cap < ring { Err(CapError::Degree { scheme, ring, cap }) } else { Ok(()) }
     }
 
     /// The splines of a sector behind rings whose squares are split in `split`.
@@ -253,20 +275,20 @@ pub(crate) struct ValenceCap {
 impl ValenceCap {
     pub(crate) fn new(rules: &ValenceRules, kind: CapKind) -> Result<Self, CapError> {
         if rules.is_fan() {
-            return Err(CapError::Sharp);
+            return Err(CapError::Fan);
         }
         let (scheme, rules, subdominant) = (rules.kind(), rules.rules(), rules.subdominant());
         let valence = rules.valence;
         if valence == 4 || !(3..=MAX_VALENCE).contains(&valence) {
             return Err(CapError::Valence { valence });
         }
+        kind.check(scheme)?;
         let space = kind.space(scheme, rules.split);
-        if space.degree < rules.degree {
-            let (ring, cap) = (rules.degree, space.degree);
-            return Err(CapError::Degree { scheme, ring, cap });
-        }
         if rules.cuts().is_some() && rules.split > 1 {
             return Err(CapError::Contraction { scheme });
+        }
+        if !cuts_fit(rules, space) {
+            return Err(CapError::Cuts { scheme, split: rules.split });
         }
         let net = subdominant.characteristic_net();
         let refined = rules.refine(&net);
@@ -327,6 +349,15 @@ impl ValenceCap {
         };
         [linear[0], linear[1], radius, real, imaginary]
     }
+}
+
+/// Whether a cap has joints wherever the inner border of a ring has.
+fn cuts_fit(rules: &Rules, space: Space) -> bool {
+    let fits = |[_, [b0, b1]]: [[f64; 2]; 2]| {
+        let at = b0 / rules.sigma() * space.pieces as f64;
+        b1 > rules.sigma() + 1e-9 || (at - at.round()).abs() < 1e-9
+    };
+    domains(rules).into_iter().all(fits)
 }
 
 /// The parts of a sector that the patches of ring 0 cover.

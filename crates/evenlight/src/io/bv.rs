@@ -22,9 +22,10 @@ use super::digits::Triple;
 use crate::patch::{MAX_DEGREE, Patch};
 use crate::surface::{PlacedPatch, Role};
 
-/// Writes `patches`, grouped by role; the color of `regular` is 0, that of ring k is k.
+/// Writes `patches`, grouped by role; the color of `regular` is 0, that of ring k is k, that of
+/// `cap` one more than that of the last ring.
 ///
-/// Regular patches are written as they come; those of rings are held back until the end, to
+/// Regular patches are written as they come; those of rings and caps are held back until the end, to
 /// have each group in one piece. Coordinates are in the units of the cage, with the fewest
 /// digits from which the same `f64` is read again. Writes many small pieces: give it something
 /// with a buffer.
@@ -33,10 +34,12 @@ pub fn write(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut rings: BTreeMap<usize, Vec<Patch>> = BTreeMap::new();
+    let mut caps: Vec<Patch> = Vec::new();
     let mut has_regular = false;
     for placed in patches {
         match placed.role {
             Role::Ring(k) => rings.entry(k).or_default().push(placed.patch),
+            Role::Cap => caps.push(placed.patch),
             Role::Regular => {
                 if !has_regular {
                     writeln!(out, "Group 0 regular")?;
@@ -46,11 +49,14 @@ pub fn write(
             }
         }
     }
-    for (k, ring) in rings {
+    for (k, ring) in &rings {
         writeln!(out, "Group {k} ring-{k}")?;
         ring.iter().try_for_each(|patch| write_patch(patch, out))?;
     }
-    Ok(())
+    if !caps.is_empty() {
+        writeln!(out, "Group {} cap", rings.keys().last().map_or(1, |last| last + 1))?;
+    }
+    caps.iter().try_for_each(|patch| write_patch(patch, out))
 }
 
 fn write_patch(patch: &Patch, out: &mut impl Write) -> io::Result<()> {

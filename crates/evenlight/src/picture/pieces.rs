@@ -14,7 +14,7 @@
 //!      +-+-+---+-------+ a=1
 //! ```
 //!
-//! so that the patches of ring 1 tell all others.
+//! so that the patches of ring 1 tell all others. Caps come before rings.
 
 use crate::surface::{Role, Sector, Surface};
 
@@ -46,17 +46,21 @@ struct QuadPieces {
     regular: Vec<Domain>,
     sectors: Vec<(Sector, f64)>,
     first_ring: Vec<Domain>,
+    caps: Vec<Domain>,
 }
 
 impl Pieces {
     /// Collects the patches of `surface`.
     pub fn of(surface: &Surface) -> Self {
         let mut quads = vec![QuadPieces::default(); surface.num_quads()];
-        for patch in surface.patch_places(1) {
+        let rings = surface.cap_options().map_or(1, |cap| cap.rings.max(1));
+        for patch in surface.patch_places(rings) {
             let quad = &mut quads[patch.quad.0 as usize];
             match patch.role {
                 Role::Regular => quad.regular.push(patch.domain),
-                Role::Ring(_) => quad.first_ring.push(patch.domain),
+                Role::Ring(1) => quad.first_ring.push(patch.domain),
+                Role::Ring(_) => {}
+                Role::Cap => quad.caps.push(patch.domain),
             }
         }
         for (k, point) in surface.extraordinary_points().iter().enumerate() {
@@ -72,8 +76,12 @@ impl Pieces {
     /// `None` at an extraordinary point itself.
     pub fn at(&self, quad: u32, uv: [f64; 2]) -> Option<Piece> {
         let quad = &self.quads[quad as usize];
-        let regular = quad.regular.iter().find(|domain| contains(domain, uv));
-        regular.map(|&domain| Piece { role: Role::Regular, domain }).or_else(|| quad.ring_piece(uv))
+        let listed = |role: Role, domains: &[Domain]| {
+            let found = domains.iter().find(|domain| contains(domain, uv));
+            found.map(|&domain| Piece { role, domain })
+        };
+        let found = listed(Role::Regular, &quad.regular).or_else(|| listed(Role::Cap, &quad.caps));
+        found.or_else(|| quad.ring_piece(uv))
     }
 }
 
@@ -137,6 +145,7 @@ mod tests {
             regular: vec![[left, low], [left, high], [right, high]],
             sectors: vec![(sector, 0.5)],
             first_ring: vec![[near, [0.25, 0.5]], [far, [0.25, 0.5]], [far, [0.0, 0.25]]],
+            caps: Vec::new(),
         };
         Pieces { quads: vec![quad] }
     }

@@ -27,6 +27,7 @@ const CLAY: [u8; 3] = [142, 157, 178];
 const REGULAR: [u8; 3] = [134, 190, 132];
 const ODD_RING: [u8; 3] = [240, 190, 84];
 const EVEN_RING: [u8; 3] = [212, 98, 78];
+const CAP: [u8; 3] = [120, 130, 210];
 const BORDER: [u8; 3] = [38, 44, 52];
 
 /// The width of patch borders in pixels, and the size of patches (in pixels) below which they
@@ -136,6 +137,7 @@ fn role_color(role: Role) -> [u8; 3] {
         Role::Regular => REGULAR,
         Role::Ring(k) if k % 2 == 1 => ODD_RING,
         Role::Ring(_) => EVEN_RING,
+        Role::Cap => CAP,
     }
 }
 

@@ -161,6 +161,15 @@ impl SchemeKind {
         self.has_quadratic() || self.guided_degree().is_some()
     }
 
+    /// The degree of the rings in both parameters.
+    pub fn degree(self) -> usize {
+        let of_spline = match self.spline() {
+            Some(Spline::BiQuartic) => 4,
+            Some(Spline::BiCubic) | None => 3,
+        };
+        self.guided_degree().unwrap_or(of_spline)
+    }
+
     /// The degree of the rings of guided subdivision.
     pub(crate) fn guided_degree(self) -> Option<usize> {
         match self {

@@ -16,6 +16,7 @@
 //! parameters; all pieces are parts of one surface.
 
 mod build;
+mod caps;
 mod place;
 mod primvar;
 mod rule;
@@ -36,6 +37,7 @@ use crate::point::{Point, Vector, add_scaled};
 use crate::rings::Rings;
 use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
 use build::{describe, refined_positions, rings, rules_of_points};
+use caps::Caps;
 use place::{
     RingPatch, Source, Square, from_sector, quadrant, ring_domain, to_sector, turned_patch,
 };
@@ -75,6 +77,8 @@ pub struct Surface {
     /// The rings around every extraordinary point.
     rings: Vec<Rings>,
     points: Vec<ExtraordinaryPoint>,
+    /// What closes the holes behind some rings.
+    caps: Option<Caps>,
     /// The primvars, built when first asked for.
     channels: Vec<OnceLock<primvar::Channel>>,
 }
@@ -144,7 +148,7 @@ impl Surface {
         let of_point = |(p, rings)| describe(&plan, p, rules[p].0, rings);
         let points = rings.iter().enumerate().map(of_point).collect();
         let channels = primvar::unbuilt(&cage);
-        Ok(Self { cage, options, plan, refined, rings, points, channels })
+        Ok(Self { cage, options, plan, refined, rings, points, caps: None, channels })
     }
 
     /// The cage.
@@ -220,14 +224,17 @@ impl Surface {
         self.points[point].position = rings.center();
         self.points[point].normal = rings.normal();
         self.rings[point] = rings;
+        if let Some(caps) = &mut self.caps {
+            caps.forget(point);
+        }
         true
     }
 
     /// Position, derivatives, normal and curvature at (u,v) of `quad`, which are clamped to
     /// 0..1; `None` if the face is omitted, there is no such quad or a parameter is NaN.
     ///
-    /// At an extraordinary point itself the position is the limit point and the normal the
-    /// limit normal; derivatives do not exist there and are NaN, nor does curvature but for
+    /// At an extraordinary point itself, unless a cap is there, the position is the limit point and the
+    /// normal the limit normal; derivatives do not exist there and are NaN, nor does curvature but for
     /// schemes with a quadratic or a guide, where it is that of q or of the guide
     /// ([`Rings::center_curvature`]). Anywhere else, however near, all are exact to rounding
     /// ([`Rings::eval`]).
@@ -246,7 +253,7 @@ impl Surface {
                 }
                 Piece::Sector { point, sector, corner } => {
                     let [a, b] = to_sector(corner, at);
-                    let found = self.rings[point as usize].eval(sector as usize, a, b);
+                    let found = self.eval_around(point as usize, sector as usize, [a, b]);
                     let jet = from_sector(corner, &found.jet).scaled_parameters(zoom);
                     return Some(SurfacePoint { jet, ..found });
                 }
@@ -260,8 +267,20 @@ impl Surface {
         }
     }
 
+    /// A sector of an extraordinary point at its own parameters.
+    fn eval_around(&self, point: usize, sector: usize, at: [f64; 2]) -> SurfacePoint {
+        let rings = &self.rings[point];
+        if let Some(cap) = self.cap(point) {
+            let in_hole = rings.in_hole(cap.rings(), at);
+            if in_hole[0].max(in_hole[1]) <= 1.0 {
+                return cap.eval(rings, sector, in_hole);
+            }
+        }
+        rings.eval(sector, at[0], at[1])
+    }
+
     /// All regular patches and the rings 1 to `rings` of every extraordinary point, quad by
-    /// quad.
+    /// quad; of a closed surface no more rings than it has, and if it is all of them the caps.
     pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch> + '_ {
         self.patch_places(rings).map(|place| {
             let PatchPlace { role, quad, domain, point, sector, .. } = place;
@@ -286,6 +305,10 @@ impl Surface {
             Source::Ring(RingPatch { point, sector, ring, which, corner, .. }) => {
                 turned_patch(corner, &self.rings[point].patch(ring, sector, which))
             }
+            Source::Cap(RingPatch { point, sector, which, corner, .. }) => {
+                let cap = self.cap(point).expect("places of caps are those of caps");
+                turned_patch(corner, &cap.patch(&self.rings[point], sector, which))
+            }
         }
     }
 
@@ -302,6 +325,14 @@ impl Surface {
             Source::Ring(RingPatch { point, sector, ring, which, square, corner }) => {
                 let [a, b] = to_sector(corner, square.parameters([u, v]));
                 let found = self.rings[point].eval_on(ring, sector, which, a, b);
+                let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
+                SurfacePoint { jet, ..found }
+            }
+            Source::Cap(RingPatch { point, sector, ring, which, square, corner }) => {
+                let cap = self.cap(point).expect("places of caps are those of caps");
+                let rings = &self.rings[point];
+                let at = rings.in_hole(ring, to_sector(corner, square.parameters([u, v])));
+                let found = cap.eval_on(rings, sector, which, at);
                 let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
                 SurfacePoint { jet, ..found }
             }
@@ -327,22 +358,7 @@ impl Surface {
             }),
             Piece::Sector { point, sector, corner } => {
                 let (point, sector) = (point as usize, sector as usize);
-                let around = &self.rings[point];
-                let (count, sigma) = (around.patches_per_sector(), around.sigma());
-                let all = (0..rings).flat_map(|ring| (0..count).map(move |which| (ring, which)));
-                out.extend(all.map(|(ring, which)| PatchPlace {
-                    role: Role::Ring(ring + 1),
-                    quad: square.quad,
-                    domain: square.part(ring_domain(
-                        corner,
-                        sigma,
-                        ring,
-                        around.patch_domain(which),
-                    )),
-                    point: Some(point),
-                    sector: Some(sector),
-                    source: Source::Ring(RingPatch { point, sector, ring, which, square, corner }),
-                }));
+                self.collect_sector(point, sector, corner, square, rings, out);
             }
             Piece::Split(first) => {
                 for k in 0..4 {
@@ -350,6 +366,40 @@ impl Surface {
                     self.collect_places(child, square.child(k), rings, out);
                 }
             }
+        }
+    }
+
+    fn collect_sector(
+        &self,
+        point: usize,
+        sector: usize,
+        corner: u8,
+        square: Square,
+        rings: usize,
+        out: &mut Vec<PatchPlace>,
+    ) {
+        let around = &self.rings[point];
+        let place = |role, ring, which, domain| {
+            let patch = RingPatch { point, sector, ring, which, square, corner };
+            PatchPlace {
+                role,
+                quad: square.quad,
+                domain: square.part(ring_domain(corner, around.sigma(), ring, domain)),
+                point: Some(point),
+                sector: Some(sector),
+                source: if role == Role::Cap { Source::Cap(patch) } else { Source::Ring(patch) },
+            }
+        };
+        let cap = self.cap(point);
+        let count = cap.map_or(rings, |cap| rings.min(cap.rings()));
+        for (ring, which) in
+            (0..count).flat_map(|ring| (0..around.patches_per_sector()).map(move |k| (ring, k)))
+        {
+            out.push(place(Role::Ring(ring + 1), ring, which, around.patch_domain(which)));
+        }
+        if let Some(cap) = cap.filter(|cap| cap.rings() <= rings) {
+            let all = 0..cap.patches_per_sector();
+            out.extend(all.map(|k| place(Role::Cap, cap.rings(), k, cap.patch_domain(k))));
         }
     }
 

@@ -23,6 +23,8 @@ pub enum Role {
     Regular,
     /// A patch of ring `k` around an extraordinary point, counted from 1.
     Ring(usize),
+    /// A patch of the cap behind the rings around an extraordinary point.
+    Cap,
 }
 
 /// Where a polynomial patch lies.
@@ -50,6 +52,8 @@ pub(super) enum Source {
     Net(u32),
     /// A patch of a ring around an extraordinary point.
     Ring(RingPatch),
+    /// A patch of a cap; `ring` is the number of rings in front of it.
+    Cap(RingPatch),
 }
 
 /// Patch `which` of a sector of a ring (from 0), the sector's square in its quad and the corner of

@@ -1,0 +1,101 @@
+//! `--cap`: the holes behind rings closed by finitely many patches.
+
+use clap::{Args, ValueEnum};
+use evenlight::cap::{CapError, CapKind, CapOptions};
+use evenlight::{SchemeKind, Surface};
+
+use crate::error::{Failure, warn};
+use crate::input::{self, Source};
+use crate::options::SurfaceArgs;
+
+/// What closes the holes behind rings.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct CapArg {
+    /// Close the hole behind the last of the --rings around every extraordinary point by
+    /// finitely many patches, so that the surface has no end of rings
+    #[arg(long, value_enum, default_value_t = CapChoice::None)]
+    pub cap: CapChoice,
+}
+
+/// The caps by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CapChoice {
+    /// Rings without end
+    None,
+    /// What suits the scheme: bi6 for guided6, bi4 for guided3 and guided4, else bi5
+    Auto,
+    /// Bi-3, 3 x 3 patches per sector; tangent planes across lines agree to small angles only
+    Bi3,
+    /// Bi-4, 2 x 2 patches per sector
+    Bi4,
+    /// Bi-5, 2 x 2 patches per sector
+    Bi5,
+    /// Bi-6, one patch per sector
+    Bi6,
+}
+
+impl CapArg {
+    /// The kind of caps, if there are to be any; checked against the schemes.
+    pub fn kind(self, schemes: &[SchemeKind]) -> Result<Option<CapKind>, Failure> {
+        let kind = match self.cap {
+            CapChoice::None => return Ok(None),
+            CapChoice::Auto => CapKind::Auto,
+            CapChoice::Bi3 => CapKind::Bi3,
+            CapChoice::Bi4 => CapKind::Bi4,
+            CapChoice::Bi5 => CapKind::Bi5,
+            CapChoice::Bi6 => CapKind::Bi6,
+        };
+        let checked: Result<(), CapError> =
+            schemes.iter().try_for_each(|&scheme| kind.check(scheme));
+        checked.map_err(|error| Failure::Usage(format!("--cap: {error}")))?;
+        Ok(Some(kind))
+    }
+
+    /// The surface that `args` ask for, with caps behind `rings` rings if they are asked for.
+    pub fn read(self, args: &SurfaceArgs, rings: u8) -> Result<Surface, Failure> {
+        let kind = self.kind(&[args.scheme])?;
+        let mut surface = input::read_surface(args)?;
+        close(&mut surface, kind, rings.into(), &args.cage.source)?;
+        Ok(surface)
+    }
+}
+
+/// Where caps are, for commands to which rings are nothing else.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct CapRingsArg {
+    #[command(flatten)]
+    pub cap: CapArg,
+
+    /// Number of rings in front of caps, 0 to 48
+    #[arg(long, value_name = "K", default_value_t = 6, requires = "cap", value_parser = clap::value_parser!(u8).range(0..=48))]
+    pub rings: u8,
+}
+
+impl CapRingsArg {
+    /// The surface that `surface` asks for, closed if caps are asked for.
+    pub fn read(self, surface: &SurfaceArgs) -> Result<Surface, Failure> {
+        self.cap.read(surface, self.rings)
+    }
+}
+
+/// Closes a surface by caps of some kind behind `rings` rings; how many points have none is said on
+/// stderr.
+pub fn close(
+    surface: &mut Surface,
+    kind: Option<CapKind>,
+    rings: usize,
+    source: &Source,
+) -> Result<(), Failure> {
+    let options = kind.map(|kind| CapOptions { rings, kind });
+    surface.set_caps(options).map_err(|error| Failure::Usage(format!("--cap: {error}")))?;
+    let points = surface.points_without_cap();
+    if let Some(&first) = points.first() {
+        let all = surface.extraordinary_points().len();
+        let why = surface.why_no_cap(first).map_or_else(String::new, |error| error.to_string());
+        warn(format_args!(
+            "{source}: {} of {all} extraordinary points have no cap but rings without end: {why}",
+            points.len()
+        ));
+    }
+    Ok(())
+}

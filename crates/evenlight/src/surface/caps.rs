@@ -1,0 +1,96 @@
+//! Caps of a surface: which points have one, made when it is first asked for.
+
+use std::sync::{Arc, OnceLock};
+
+use super::Surface;
+use crate::cap::{Cap, CapError, CapOptions, ValenceCap};
+use crate::parallel::map_indexed;
+use crate::rings::{Rings, ValenceRules};
+
+/// The caps around the points of a surface.
+#[derive(Debug)]
+pub(super) struct Caps {
+    pub(super) options: CapOptions,
+    /// Per point the rules, shared among those alike, and the cap; or why rings go on for ever.
+    around: Vec<Result<(Arc<ValenceCap>, OnceLock<Cap>), CapError>>,
+}
+
+impl Caps {
+    /// # Errors
+    ///
+    /// If the caps do not fit the rings of some point.
+    fn new(rings: &[Rings], options: CapOptions) -> Result<Self, CapError> {
+        let mut kinds: Vec<&ValenceRules> = Vec::new();
+        let kind_of = |rings: &Rings, kinds: &[&ValenceRules]| {
+            kinds.iter().position(|&rules| std::ptr::eq(rules, rings.rules()))
+        };
+        for rings in rings {
+            if kind_of(rings, &kinds).is_none() {
+                kinds.push(rings.rules());
+            }
+        }
+        let made = map_indexed(kinds.len(), |k| ValenceCap::new(kinds[k], options.kind));
+        let mut rules = Vec::new();
+        for result in made {
+            rules.push(match result {
+                Ok(rules) => Ok(Arc::new(rules)),
+                Err(error @ (CapError::Valence { .. } | CapError::Fan)) => Err(error),
+                Err(error) => return Err(error),
+            });
+        }
+        let around = rings.iter().map(|rings| {
+            let rules = rules[kind_of(rings, &kinds).expect("all kinds are listed")].clone();
+            rules.map(|rules| (rules, OnceLock::new()))
+        });
+        Ok(Self { options, around: around.collect() })
+    }
+
+    /// Forgets the cap of a point whose rings have changed.
+    pub(super) fn forget(&mut self, point: usize) {
+        if let Ok((_, cap)) = &mut self.around[point] {
+            *cap = OnceLock::new();
+        }
+    }
+}
+
+impl Surface {
+    /// Replaces the rings behind the first `options.rings` by caps, finitely many patches; `None` for
+    /// rings without end.
+    ///
+    /// A surface that is closed like this has derivatives and curvature at extraordinary points too.
+    /// Around points without caps (of valence 2 or above [`MAX_VALENCE`](crate::cap::MAX_VALENCE), and
+    /// those on a boundary or sharp edges) rings go on for ever. Takes some hundredths of a second per valence; caps themselves are made
+    /// when first asked for.
+    ///
+    /// # Errors
+    ///
+    /// [`CapError`] if there are no such caps for the rings; the surface stays as it was.
+    pub fn set_caps(&mut self, options: Option<CapOptions>) -> Result<(), CapError> {
+        self.caps = options.map(|options| Caps::new(&self.rings, options)).transpose()?;
+        Ok(())
+    }
+
+    /// How the surface is closed, if it is.
+    pub fn cap_options(&self) -> Option<CapOptions> {
+        self.caps.as_ref().map(|caps| caps.options)
+    }
+
+    /// The cap around an extraordinary point, by its index; `None` if rings go on for ever there.
+    pub fn cap(&self, point: usize) -> Option<&Cap> {
+        let caps = self.caps.as_ref()?;
+        let (rules, cap) = caps.around[point].as_ref().ok()?;
+        let make = || Cap::with_rules(&self.rings[point], caps.options.rings, rules);
+        Some(cap.get_or_init(make))
+    }
+
+    /// The extraordinary points of a closed surface that have no cap, by their indices.
+    pub fn points_without_cap(&self) -> Vec<usize> {
+        let Some(caps) = &self.caps else { return Vec::new() };
+        (0..caps.around.len()).filter(|&point| caps.around[point].is_err()).collect()
+    }
+
+    /// Why an extraordinary point of a closed surface, by its index, has no cap; `None` if it has.
+    pub fn why_no_cap(&self, point: usize) -> Option<&CapError> {
+        self.caps.as_ref()?.around[point].as_ref().err()
+    }
+}
