@@ -12,8 +12,11 @@ use crate::rings::{Rings, ValenceRules};
 pub(super) struct Caps {
     pub(super) options: CapOptions,
     /// Per point the rules, shared among those alike, and the cap; or why rings go on for ever.
-    around: Vec<Result<(Arc<ValenceCap>, OnceLock<Cap>), CapError>>,
+    around: Vec<Result<Around, CapError>>,
 }
+
+/// The rules of a cap, and the cap once it was asked for.
+type Around = (Arc<ValenceCap>, OnceLock<Cap>);
 
 impl Caps {
     /// # Errors
