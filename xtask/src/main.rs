@@ -19,6 +19,8 @@ mod osd;
 mod pictures;
 #[cfg(feature = "library")]
 mod shape;
+#[cfg(feature = "library")]
+mod study;
 mod tables;
 mod threads;
 mod tidy;
@@ -47,6 +49,8 @@ enum Chore {
     Pictures(pictures::Arguments),
     #[cfg(feature = "library")]
     Shape(shape::Arguments),
+    #[cfg(feature = "library")]
+    Study(study::Arguments),
     Tables(tables::Arguments),
     Tidy(tidy::Arguments),
 }
@@ -77,6 +81,8 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
         Chore::Pictures(arguments) => pictures::run(arguments),
         #[cfg(feature = "library")]
         Chore::Shape(arguments) => shape::run(arguments),
+        #[cfg(feature = "library")]
+        Chore::Study(arguments) => study::run(arguments),
         Chore::Tables(arguments) => tables::run(arguments),
         Chore::Tidy(arguments) => tidy::run(arguments),
     }

@@ -8,9 +8,12 @@ use std::error::Error;
 use std::fs;
 use std::sync::Arc;
 
+use evenlight::basis::{Eigenfunctions, Parity};
 use evenlight::io::obj;
 use evenlight::net::Quadratic;
-use evenlight::picture::{Picture, RenderOptions, Style, View, compare, render};
+use evenlight::picture::{
+    self, GraphOptions, Picture, RenderOptions, Style, View, compare, render,
+};
 use evenlight::point::{add, scale};
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
@@ -20,12 +23,14 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 type Make = fn() -> Result<Picture>;
 
 /// The pictures.
-const PICTURES: [(&str, Make); 5] = [
+const PICTURES: [(&str, Make); 7] = [
     ("chair.png", chair),
     ("pinch.png", pinch),
     ("family.png", family),
     ("quadratic.png", quadratic),
     ("patches.png", patches),
+    ("fair.png", fair),
+    ("eigenfunctions.png", eigenfunctions),
 ];
 
 /// Draw the pictures of the README and the docs.
@@ -93,6 +98,11 @@ fn family() -> Result<Picture> {
 }
 
 fn highlight_lines(path: &str, schemes: &[SchemeKind], zoom: f64) -> Result<Picture> {
+    near_the_point(path, schemes, Style::Highlight, zoom)
+}
+
+/// Several schemes over one cage, seen from above its first point.
+fn near_the_point(path: &str, schemes: &[SchemeKind], style: Style, zoom: f64) -> Result<Picture> {
     let cage = cage(path)?;
     let surfaces: Vec<Surface> =
         schemes.iter().map(|&scheme| surface(&cage, scheme)).collect::<Result<_>>()?;
@@ -100,12 +110,24 @@ fn highlight_lines(path: &str, schemes: &[SchemeKind], zoom: f64) -> Result<Pict
         surfaces.iter().map(|s| (s.options().scheme.name(), s)).collect();
     let view = View::toward(&surfaces[0], 0).ok_or("the first point has no normal")?;
     let options = RenderOptions {
-        style: Style::Highlight,
+        style,
         size: [400 * schemes.len(), 400],
         view: View { zoom: zoom * view.zoom, ..view },
         ..RenderOptions::default()
     };
     Ok(compare(&panels, &options)?)
+}
+
+/// Mean curvature near the extraordinary point of a saddle of valence 8.
+fn fair() -> Result<Picture> {
+    let schemes = [
+        SchemeKind::EvolvingGuide,
+        SchemeKind::Qas4,
+        SchemeKind::Fair4,
+        SchemeKind::Fair4d,
+        SchemeKind::Guided5,
+    ];
+    near_the_point("data/meshes/obstacle/saddle_n8.obj", &schemes, Style::Mean, 5.0)
 }
 
 /// A monkey saddle with its default quadratic and with three others: lifted, tilted, and bent.
@@ -162,4 +184,14 @@ fn patches() -> Result<Picture> {
         ..RenderOptions::default()
     };
     Ok(compare(&panels, &options)?)
+}
+
+/// Eigenfunctions of guided5 at valence 5: the even ones of eigenvalues lambda^2 to lambda^4.
+fn eigenfunctions() -> Result<Picture> {
+    let functions = Eigenfunctions::new(SchemeKind::Guided5, 5).ok_or("guided5 has valence 5")?;
+    let is_even = |&k: &usize| functions.guide(k).parity() == Parity::Even;
+    let from_degree_2 = functions.of_degree(2).start..functions.len();
+    let which: Vec<usize> = from_degree_2.filter(is_even).take(10).collect();
+    let options = GraphOptions { size: [1400, 560], ..GraphOptions::default() };
+    Ok(picture::eigenfunctions(&functions, &which, &options)?)
 }

@@ -113,7 +113,8 @@ pub fn read(path: &Path) -> Result<Arc<Cage>, Box<dyn Error>> {
     Ok(Arc::new(cage))
 }
 
-fn build(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface, Box<dyn Error>> {
+/// The surface of a scheme over it.
+pub fn build(cage: &Arc<Cage>, scheme: SchemeKind) -> Result<Surface, Box<dyn Error>> {
     let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
     Ok(Surface::build(cage.clone(), options)?)
 }

@@ -17,6 +17,10 @@ use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text};
 use crate::options::{BoundaryArg, scheme_parser};
 use crate::output::Target;
 
+mod fix;
+
+use fix::FixArgs;
+
 /// Arguments of `evenlight check`.
 #[derive(Args, Debug)]
 pub struct CheckArgs {
@@ -37,6 +41,9 @@ pub struct CheckArgs {
     /// The file to write; `-` for stdout
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: Target,
+
+    #[command(flatten)]
+    fix: FixArgs,
 }
 
 /// Runs `evenlight check`.
@@ -45,6 +52,9 @@ pub struct CheckArgs {
 ///
 /// All faults of the cage, if it cannot be used.
 pub fn run(args: &CheckArgs) -> Result<(), Failure> {
+    if let Some(target) = &args.fix.target {
+        return args.fix.run(&args.cage, target, args.json, &args.output);
+    }
     let result = input::read_mesh(&args.cage)?.and_then(Loaded::check);
     let options = SurfaceOptions {
         scheme: args.scheme,

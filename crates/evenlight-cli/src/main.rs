@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! check      is the cage fit, and what is in it     convert   cages: .obj .ply .usda
-//! mesh       triangles: .obj .ply .stl
+//! mesh       triangles: .obj .ply .stl .glb
 //! patches    BB patches: .bv .json                  eval      points, derivatives, curvature
 //! render     pictures: .png                         analyze   fairness in numbers
 //! q          quadratics, to be edited for --q       spectrum  eigenvalues of the rules
@@ -66,7 +66,7 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// The surface as Bernstein-Bezier patches: BezierView .bv or .json
     Patches(patches::PatchesArgs),
-    /// Triangles of the limit surface with exact normals: .obj, .ply or .stl
+    /// Triangles of the limit surface with exact normals: .obj, .ply, .stl or .glb
     Mesh(mesh::MeshArgs),
     /// Position, derivatives, normal and curvature at given parameters: .csv
     Eval(eval::EvalArgs),

@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use evenlight::Surface;
-use evenlight::io::{obj_out, ply_out, stl};
+use evenlight::io::{glb, obj_out, ply_out, stl};
 use evenlight::tessellate::{TriangleMesh, tessellate};
 
 use crate::cap::CapRingsArg;
@@ -20,8 +20,8 @@ pub struct MeshArgs {
     #[command(flatten)]
     caps: CapRingsArg,
 
-    /// The file to write: .obj with normals, .ply with normals and curvature, or .stl; `-` for
-    /// stdout
+    /// The file to write: .obj with normals, .ply or .glb with normals and curvature, or .stl; `-`
+    /// for stdout
     #[arg(short, long, value_name = "FILE")]
     output: Target,
 
@@ -43,6 +43,8 @@ pub enum MeshFormat {
     Ply,
     /// Binary STL
     Stl,
+    /// Binary glTF with normals, Gauss and mean curvature per vertex
+    Glb,
 }
 
 /// Runs `evenlight mesh`.
@@ -70,5 +72,6 @@ pub fn write(mesh: &TriangleMesh, format: MeshFormat, target: &Target) -> Result
         MeshFormat::Obj => obj_out::write(mesh, &mut out),
         MeshFormat::Ply => ply_out::write(mesh, &mut out),
         MeshFormat::Stl => stl::write(mesh, &mut out),
+        MeshFormat::Glb => glb::write(mesh, &mut out),
     })
 }

@@ -1,6 +1,9 @@
 //! `evenlight spectrum`: eigenvalues of the subdivision rules per valence.
 
+mod pictures;
+
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 use clap::Args;
 use evenlight::analyse::spectrum::{Spectrum, spectrum};
@@ -32,6 +35,11 @@ pub struct SpectrumArgs {
     #[arg(long)]
     json: bool,
 
+    /// Folder for pictures of the eigenfunctions, made if it is not there: for each valence and each
+    /// degree s one file with the functions of eigenvalue lambda^s (guided schemes only)
+    #[arg(long, value_name = "DIR")]
+    eigenfunctions: Option<PathBuf>,
+
     /// The file to write; `-` for stdout
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: Target,
@@ -41,6 +49,9 @@ pub struct SpectrumArgs {
 pub fn run(args: &SpectrumArgs, quiet: bool) -> Result<(), Failure> {
     let options = args.rules.options(args.scheme);
     let spectra = spectra(options, &args.valence, quiet)?;
+    if let Some(folder) = &args.eigenfunctions {
+        pictures::write(folder, options, &spectra, quiet)?;
+    }
     if args.json {
         args.output.write_json(&Document::new(options, &spectra))
     } else {

@@ -4,7 +4,9 @@
 
 mod common;
 
-use common::{CONE, CUBE, PILLOW, TETRAHEDRON, arg, cage, code, json, run, run_on, stderr, stdout};
+use common::{
+    CONE, CUBE, PILLOW, TETRAHEDRON, arg, cage, code, file, json, run, run_on, stderr, stdout,
+};
 use serde_json::json;
 
 #[test]
@@ -139,4 +141,75 @@ fn text_of_pyramid() -> String {
         text += &format!("f 1 {a} {b}\nf 2 {b} {a}\n");
     }
     text
+}
+
+/// A cube with its last face flipped, a vertex twice and one in no face.
+const BROKEN_CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n\
+    v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv -1 -1 -1\nv 5 5 5\n\
+    f 1 4 3 2\nf 5 6 7 8\nf 9 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 8 5 1 4\n";
+
+#[test]
+fn repairs_are_made_on_request_only_and_listed() {
+    let (folder, path) = file("broken.obj", BROKEN_CUBE);
+    let out = folder.path().join("fixed.obj");
+    let all = ["--merge", "0", "--flip", "--drop-unused"];
+    let output = run(&[&["check", arg(&path), "--fix", arg(&out)], &all[..]].concat());
+    let expected = format!(
+        "{}: written\n  1 vertex merged, from a distance of 0 or less: 9 (line 9) into 1 (line 1)\n  \
+         1 face flipped: 6 (line 16)\n  1 vertex in no face deleted: 10 (line 10)\n",
+        out.display()
+    );
+    assert_eq!(stdout(&output), expected);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), BROKEN_CUBE);
+    let check = json(&run(&["check", arg(&out), "--json"]));
+    assert_eq!((&check["boundary_edges"], &check["vertices"]), (&0.into(), &8.into()));
+    // The same again finds nothing to do, and leaves the file that is there.
+    let output = run(&[&["check", arg(&out), "--fix", arg(&path)], &all[..]].concat());
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("nothing is changed, and nothing written: none of these"));
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), BROKEN_CUBE);
+}
+
+#[test]
+fn faults_that_remain_are_said() {
+    let (folder, path) = file("broken.obj", BROKEN_CUBE);
+    let out = folder.path().join("fixed.ply");
+    let fix = ["check", arg(&path), "--fix", arg(&out), "--drop-unused"];
+    let output = run(&[&fix[..], &["--json"]].concat());
+    assert_eq!(code(&output), 1);
+    let message = format!("error: {}: still cannot be used: ", out.display());
+    assert!(stderr(&output).starts_with(&message), "{}", stderr(&output));
+    let report = json(&output);
+    assert_eq!(report["changes"], serde_json::json!(["1 vertex in no face deleted: 10 (line 10)"]));
+    assert!(!report["errors"].as_array().unwrap().is_empty() && out.exists());
+}
+
+#[test]
+fn a_moebius_strip_cannot_be_oriented() {
+    let strip =
+        "v 0 0 0\n".repeat(10) + "f 2 4 3 1\nf 4 6 5 3\nf 6 8 7 5\nf 8 10 9 7\nf 10 1 2 9\n";
+    let (folder, path) = file("strip.obj", &strip);
+    let out = folder.path().join("fixed.obj");
+    let output = run(&["check", arg(&path), "--fix", arg(&out), "--flip"]);
+    assert_eq!(code(&output), 1);
+    let expected = "nothing is changed, and nothing written: the piece of face 1 (line 11) (5 faces) \
+                    is one-sided";
+    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    assert!(!out.exists());
+}
+
+#[test]
+fn repairs_must_be_chosen_and_need_a_file() {
+    let (folder, path) = file("broken.obj", BROKEN_CUBE);
+    let out = folder.path().join("fixed.obj");
+    for (words, expected) in [
+        (&["--fix", arg(&out)][..], "--fix needs to be told what to repair: --merge DISTANCE"),
+        (&["--flip"], "--fix <OUT>"),
+        (&["--fix", arg(&out), "--merge", "-1"], "a distance is a number from 0"),
+        (&["--fix", "out.stl", "--flip"], "it can be .obj, .ply, .usda"),
+    ] {
+        let output = run(&[&["check", arg(&path)], words].concat());
+        assert_eq!(code(&output), 2, "{words:?}");
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
 }

@@ -137,3 +137,18 @@ fn the_table_has_a_line_per_valence() {
     assert!(text.lines().skip(1).all(|line| line.contains(" proved ")));
     assert!(text.lines().nth(1).unwrap().trim_start().starts_with("3  0.410097"));
 }
+
+#[test]
+fn eigenfunctions_are_drawn_degree_by_degree() {
+    let folder = tempfile::tempdir().unwrap();
+    let into = folder.path().join("new").display().to_string();
+    let args = ["spectrum", "--scheme", "guided5", "--valence", "3", "--eigenfunctions", &into];
+    assert_eq!(code(&run(&args)), 0);
+    for s in 0..=10 {
+        let file = folder.path().join(format!("new/guided5_n03_s{s:02}.png"));
+        assert!(std::fs::read(&file).unwrap().starts_with(b"\x89PNG"), "{}", file.display());
+    }
+    let output = run(&["spectrum", "--scheme", "qas4", "--eigenfunctions", &into]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("choose one of guided3 to guided6"), "{}", stderr(&output));
+}

@@ -64,7 +64,7 @@
 //! | [`surface`] | the whole surface |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
-//! | [`io`] | OBJ, PLY, STL, BezierView |
+//! | [`io`] | OBJ, PLY, USD, glTF, STL, BezierView |
 //! | `picture` (feature) | pictures with exact normals |
 //!
 //! # What is not promised

@@ -5,7 +5,7 @@
 mod common;
 
 use evenlight::SchemeKind;
-use evenlight::io::{bv, obj_out, ply_out, stl};
+use evenlight::io::{bv, glb, obj_out, ply_out, stl};
 use evenlight::mesh::Mesh;
 use evenlight::patch::Patch;
 use evenlight::surface::{PlacedPatch, QuadId, Role};
@@ -145,6 +145,44 @@ fn ply_is_read_by_an_independent_reader() {
     assert_eq!((vertices.len(), faces.len()), (4, 4));
 }
 
+/// The crate `gltf` checks the file's description against the format's rules.
+#[test]
+fn glb_is_read_by_an_independent_reader() {
+    let mesh = tetrahedron();
+    let bytes = written(|out| glb::write(&mesh, out));
+    assert!(bytes.len().is_multiple_of(4));
+    let gltf = gltf::Gltf::from_slice(&bytes).unwrap();
+    let blob = gltf.blob.as_deref().unwrap();
+    let primitive = gltf.meshes().next().unwrap().primitives().next().unwrap();
+    let reader = primitive.reader(|_| Some(blob));
+    let positions: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
+    assert_eq!(positions, mesh.positions.iter().map(|p| p.map(|x| x as f32)).collect::<Vec<_>>());
+    let bounds = primitive.bounding_box();
+    assert_eq!((bounds.min, bounds.max), ([0.0; 3], [1.0f32 / 3.0, 1e-7, 2.5]));
+    let normals: Vec<[f32; 3]> = reader.read_normals().unwrap().collect();
+    assert_eq!(normals, [[-0.6, -0.8, 0.0], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]]);
+    let indices: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+    assert_eq!(indices, mesh.triangles.concat());
+    for (name, values) in
+        [("GAUSS_CURVATURE", [0.0, 0.25, -3.0, 0.0]), ("MEAN_CURVATURE", [-1.0, 0.5, 0.0, 0.0])]
+    {
+        let semantic = gltf::Semantic::Extras(name.to_owned());
+        let accessor = primitive.get(&semantic).unwrap();
+        let values_found = gltf::accessor::Iter::<f32>::new(accessor, |_| Some(blob)).unwrap();
+        assert_eq!(values_found.collect::<Vec<_>>(), values);
+    }
+}
+
+#[test]
+fn glb_refuses_what_the_format_cannot_hold() {
+    let mut mesh = tetrahedron();
+    mesh.positions[0][1] = 1e39;
+    let error = glb::write(&mesh, &mut Vec::new()).unwrap_err().to_string();
+    assert!(error.starts_with("a coordinate is too large for the 32 bits of glTF"));
+    let error = glb::write(&TriangleMesh::default(), &mut Vec::new()).unwrap_err().to_string();
+    assert_eq!(error, "a glTF file needs a triangle");
+}
+
 /// A bilinear patch at height `z`.
 fn placed(role: Role, z: f64) -> PlacedPatch {
     let coefs = vec![[0.0, 0.0, z], [0.0, 1.0, z], [1.0, 0.0, z], [1.0, 1.0, z]];
@@ -214,5 +252,6 @@ fn a_full_disk_is_an_error() {
     assert!(obj_out::write(&mesh, &mut &mut [0; 10][..]).is_err());
     assert!(ply_out::write(&mesh, &mut &mut [0; 10][..]).is_err());
     assert!(stl::write(&mesh, &mut &mut [0; 10][..]).is_err());
+    assert!(glb::write(&mesh, &mut &mut [0; 10][..]).is_err());
     assert!(bv::write([placed(Role::Regular, 0.0)], &mut &mut [0; 10][..]).is_err());
 }

@@ -262,12 +262,35 @@ const GAUSS: [(f64, f64); 6] = [
 /// assert!((found / exact - 1.0).abs() < 1e-4);
 /// ```
 pub fn shape_energy(patch: &Patch) -> f64 {
+    integral_of_squared_gradient(patch, mean_derivative)
+}
+
+/// The integral of |grad K|^2 dA over a patch, in 1/unit^4, likewise.
+///
+/// ```
+/// use evenlight::analyse::shape::gauss_energy;
+/// use evenlight::patch::Patch;
+///
+/// // A cylinder has K = 0.
+/// let rows = [[0.0, 0.0], [0.25, 0.0], [0.5, 0.25]];
+/// let coefs = rows.iter().flat_map(|&[x, z]| [[x, 0.0, z], [x, 1.0, z]]);
+/// assert!(gauss_energy(&Patch::new([2, 1], coefs.collect())) < 1e-25);
+/// ```
+pub fn gauss_energy(patch: &Patch) -> f64 {
+    integral_of_squared_gradient(patch, gauss_derivative)
+}
+
+/// The derivative of a curvature in one parameter, from the jet of r and from the derivatives of
+/// r_u, r_v and of r_uu, r_uv, r_vv in that parameter.
+type CurvatureDerivative = fn(&Jet, [Vector; 2], [Vector; 3]) -> f64;
+
+fn integral_of_squared_gradient(patch: &Patch, by: CurvatureDerivative) -> f64 {
     let derivatives = [0, 1].map(|parameter| derivative(patch, parameter));
     let mut sum = 0.0;
     for (u, wu) in GAUSS {
         for (v, wv) in GAUSS {
-            let density =
-                energy_density(&patch.jet(u, v), &derivatives.each_ref().map(|p| p.jet(u, v)));
+            let jets = derivatives.each_ref().map(|p| p.jet(u, v));
+            let density = energy_density(&patch.jet(u, v), &jets, by);
             if density.is_finite() {
                 sum += wu * wv * density;
             }
@@ -290,12 +313,12 @@ fn derivative(patch: &Patch, parameter: usize) -> Patch {
     Patch::new(degree, (0..(degree[0] + 1) * (degree[1] + 1)).map(coef).collect())
 }
 
-/// |grad H|^2 |r_u x r_v| from the jet of r and those of its derivatives [r_u, r_v].
+/// |grad H|^2 |r_u x r_v|, or that of K, from the jet of r and those of its derivatives [r_u, r_v].
 ///
 /// With the gradient in coordinates, |grad H|^2 = (G H_u^2 - 2 F H_u H_v + E H_v^2) / w^2.
-fn energy_density(r: &Jet, [ru, rv]: &[Jet; 2]) -> f64 {
-    let h_u = mean_derivative(r, [r.duu, r.duv], [ru.duu, ru.duv, ru.dvv]);
-    let h_v = mean_derivative(r, [r.duv, r.dvv], [rv.duu, rv.duv, rv.dvv]);
+fn energy_density(r: &Jet, [ru, rv]: &[Jet; 2], by: CurvatureDerivative) -> f64 {
+    let h_u = by(r, [r.duu, r.duv], [ru.duu, ru.duv, ru.dvv]);
+    let h_v = by(r, [r.duv, r.dvv], [rv.duu, rv.duv, rv.dvv]);
     let (e, f, g) = (dot(r.du, r.du), dot(r.du, r.dv), dot(r.dv, r.dv));
     (g * h_u * h_u - 2.0 * f * h_u * h_v + e * h_v * h_v) / norm(cross(r.du, r.dv))
 }
@@ -322,6 +345,23 @@ fn mean_derivative(r: &Jet, first: [Vector; 2], second: [Vector; 3]) -> f64 {
     (p_ - 3.0 * p * dot(a, a_) / w2) / (2.0 * w2 * w2.sqrt())
 }
 
+/// The derivative of K likewise.
+///
+/// ```text
+/// K = P / w^4,   P = D_uu D_vv - D_uv^2,   K' = P' / w^4 - 4 P (a . a') / w^6.
+/// ```
+fn gauss_derivative(r: &Jet, first: [Vector; 2], second: [Vector; 3]) -> f64 {
+    let a = cross(r.du, r.dv);
+    let a_ = add(cross(first[0], r.dv), cross(r.du, first[1]));
+    let w2 = dot(a, a);
+    let of_r = [r.duu, r.duv, r.dvv];
+    let d = of_r.map(|x| dot(a, x));
+    let d_: [f64; 3] = std::array::from_fn(|k| dot(a_, of_r[k]) + dot(a, second[k]));
+    let p = d[0] * d[2] - d[1] * d[1];
+    let p_ = d_[0] * d[2] + d[0] * d_[2] - 2.0 * d[1] * d_[1];
+    (p_ - 4.0 * p * dot(a, a_) / w2) / (w2 * w2)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -337,21 +377,24 @@ mod tests {
     }
 
     #[test]
-    fn the_gradient_of_mean_curvature_is_its_difference_quotient() {
+    fn the_gradients_of_curvatures_are_their_difference_quotients() {
         let patch = crooked();
         let [ru, rv] = [0, 1].map(|parameter| derivative(&patch, parameter));
-        let mean = |u: f64, v: f64| patch.jet(u, v).curvature().1;
+        let curvatures = |u: f64, v: f64| -> [f64; 2] { patch.jet(u, v).curvature().into() };
+        let of: [CurvatureDerivative; 2] = [gauss_derivative, mean_derivative];
         let h = 1e-4;
         for (u, v) in [(0.1, 0.2), (0.5, 0.5), (0.9, 0.3), (0.25, 0.8)] {
             let (r, ru, rv) = (patch.jet(u, v), ru.jet(u, v), rv.jet(u, v));
-            let by_u = mean_derivative(&r, [r.duu, r.duv], [ru.duu, ru.duv, ru.dvv]);
-            let by_v = mean_derivative(&r, [r.duv, r.dvv], [rv.duu, rv.duv, rv.dvv]);
-            let quotients = [
-                (mean(u + h, v) - mean(u - h, v)) / (2.0 * h),
-                (mean(u, v + h) - mean(u, v - h)) / (2.0 * h),
-            ];
-            for (exact, quotient) in [by_u, by_v].into_iter().zip(quotients) {
-                assert!((exact - quotient).abs() < 1e-5 * (1.0 + exact.abs()), "({u}, {v})");
+            for (k, by) in of.into_iter().enumerate() {
+                let by_u = by(&r, [r.duu, r.duv], [ru.duu, ru.duv, ru.dvv]);
+                let by_v = by(&r, [r.duv, r.dvv], [rv.duu, rv.duv, rv.dvv]);
+                let quotients = [
+                    (curvatures(u + h, v)[k] - curvatures(u - h, v)[k]) / (2.0 * h),
+                    (curvatures(u, v + h)[k] - curvatures(u, v - h)[k]) / (2.0 * h),
+                ];
+                for (exact, quotient) in [by_u, by_v].into_iter().zip(quotients) {
+                    assert!((exact - quotient).abs() < 1e-5 * (1.0 + exact.abs()), "({u}, {v})");
+                }
             }
         }
     }

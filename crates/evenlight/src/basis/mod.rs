@@ -23,3 +23,8 @@ pub use guide::{HomogeneousGuide, MAX_TOTAL_DEGREE, Parity, multiplicity};
 pub use scalar::ScalarJet;
 pub use space::{Element, FunctionKind, RefinableSpace, Support};
 pub use sparse::SparseMatrix;
+
+/// The examples of the chapter are tested.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/10-basis.md")]
+struct Chapter;

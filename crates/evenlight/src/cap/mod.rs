@@ -16,7 +16,7 @@
 //! Caps join the last ring, or for K = 0 the surrounding surface, with first derivatives; position
 //! and tangent plane are common on the lines; and all sectors have one quadratic at the centre, that
 //! of the scheme's q or guide if it has one, so that curvature exists there. What freedom is left
-//! follows the guide or bends least ([`rules`]).
+//! follows the guide or bends least (module `rules`).
 //!
 //! If the patches of a ring are split themselves, a cap is split in the smallest multiple of that.
 

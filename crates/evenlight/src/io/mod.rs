@@ -3,6 +3,7 @@
 pub mod bv;
 mod digits;
 mod excerpt;
+pub mod glb;
 pub mod load;
 pub mod obj;
 pub mod obj_out;

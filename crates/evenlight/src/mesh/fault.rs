@@ -303,7 +303,7 @@ impl Names for LibraryNumbers {
 }
 
 /// The names of the first few of `items`, and how many follow.
-fn list<T>(items: &[T], name: impl Fn(&T) -> String) -> String {
+pub(super) fn list<T>(items: &[T], name: impl Fn(&T) -> String) -> String {
     /// Enough to find the place; a pole may have thousands.
     const SHOWN: usize = 5;
     let mut text = items.iter().take(SHOWN).map(name).collect::<Vec<_>>().join(", ");

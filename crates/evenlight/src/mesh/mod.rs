@@ -9,6 +9,7 @@ pub(crate) mod channel;
 mod check;
 mod fan;
 mod fault;
+pub mod fix;
 pub mod isolation;
 mod nets;
 mod refine;

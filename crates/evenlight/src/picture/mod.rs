@@ -26,6 +26,7 @@ mod camera;
 mod canvas;
 mod color;
 mod dice;
+mod graph;
 mod legend;
 mod panel;
 mod pieces;
@@ -34,6 +35,7 @@ mod shade;
 
 pub use camera::View;
 pub use canvas::Picture;
+pub use graph::{GraphOptions, eigenfunctions};
 
 use embedded_graphics::mono_font::iso_8859_1::FONT_9X18_BOLD;
 use embedded_graphics::text::Alignment;

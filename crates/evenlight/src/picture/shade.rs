@@ -156,7 +156,7 @@ const SKY: Light = [0.40, 0.42, 0.45];
 const GROUND: Light = [0.19, 0.185, 0.18];
 
 /// A material of colour `albedo` with a satin gloss in the light of the studio, at normal `n`.
-fn studio(albedo: Light, n: Vector) -> Light {
+pub(super) fn studio(albedo: Light, n: Vector) -> Light {
     let mut light = mix(GROUND, SKY, 0.5 + 0.5 * n[1]);
     for lamp in [&KEY, &FILL, &RIM] {
         let amount = diffuse(lamp, n);
