@@ -8,6 +8,7 @@
 use std::io::{self, Write};
 
 use clap::Args;
+use evenlight::mesh::Primvar;
 use evenlight::{FaceId, QuadId, Surface, SurfacePoint};
 use rayon::prelude::*;
 
@@ -32,6 +33,11 @@ pub struct EvalArgs {
     /// skipped. `-` for stdin
     #[arg(long, value_name = "FILE")]
     points: Source,
+
+    /// Also the primvars of the cage (texture coordinates, colours): for each, columns NAME.0,
+    /// NAME.1 ... with its numbers, then NAME.0u ... and NAME.0v ... with their derivatives
+    #[arg(long)]
+    primvars: bool,
 
     /// The answers: the input columns, then x,y,z, the derivatives xu ... zvv, the unit normal
     /// nx,ny,nz, Gauss curvature K (1/length^2) and mean curvature H (1/length), with 17
@@ -59,7 +65,7 @@ pub fn run(args: &EvalArgs, quiet: bool) -> Result<(), Failure> {
     input::refuse_shared_stdin(&sources.into_iter().chain(q).collect::<Vec<_>>())?;
     let surface = args.caps.read(&args.surface)?;
     let text = args.points.read_text()?;
-    evaluate(&surface, &args.points, &text, &args.output, quiet)
+    evaluate(&surface, &args.points, &text, args.primvars, &args.output, quiet)
 }
 
 /// Answers the queries in `text`, which was read from `source`.
@@ -67,6 +73,7 @@ pub fn evaluate(
     surface: &Surface,
     source: &Source,
     text: &str,
+    with_primvars: bool,
     target: &Target,
     quiet: bool,
 ) -> Result<(), Failure> {
@@ -76,10 +83,14 @@ pub fn evaluate(
     let progress = Progress::new(table.rows.len().div_ceil(BATCH), quiet);
     progress.stage("Evaluating");
     target.write(|out| {
-        writeln!(out, "face,u,v{},{ANSWER}", if table.has_corners { ",corner" } else { "" })?;
+        let corner = if table.has_corners { ",corner" } else { "" };
+        let primvars = if with_primvars { surface.primvars() } else { &[] };
+        writeln!(out, "face,u,v{corner},{ANSWER}{}", primvar_columns(primvars))?;
         for (rows, quads) in table.rows.chunks(BATCH).zip(quads.chunks(BATCH)) {
-            for (row, answer) in rows.iter().zip(answers(surface, rows, quads)) {
-                write_row(out, row, table.has_corners, &answer)?;
+            for (k, answer) in answers(surface, rows, quads).iter().enumerate() {
+                write_row(out, &rows[k], table.has_corners, answer)?;
+                write_primvars(out, surface, primvars, quads[k], &rows[k])?;
+                out.write_all(b"\n")?;
             }
             progress.step();
         }
@@ -108,10 +119,37 @@ fn write_row(
     }
     let curvature = [answer.gauss, answer.mean];
     let vectors = answer.jet.rows().into_iter().chain([answer.normal]);
-    for x in vectors.flatten().chain(curvature) {
-        write_number(out, x)?;
+    vectors.flatten().chain(curvature).try_for_each(|x| write_number(out, x))
+}
+
+/// The columns of primvars, each with a comma before it.
+fn primvar_columns(primvars: &[Primvar]) -> String {
+    let mut columns = String::new();
+    for primvar in primvars {
+        let name = primvar.name.replace([',', '"', '\n', '\r'], "_");
+        for order in ["", "u", "v"] {
+            columns.extend((0..primvar.width).map(|k| format!(",{name}.{k}{order}")));
+        }
     }
-    out.write_all(b"\n")
+    columns
+}
+
+fn write_primvars(
+    out: &mut dyn Write,
+    surface: &Surface,
+    primvars: &[Primvar],
+    quad: QuadId,
+    row: &Row,
+) -> io::Result<()> {
+    for (k, primvar) in primvars.iter().enumerate() {
+        let jet = surface
+            .eval_primvar(k, quad, row.u, row.v)
+            .expect("rows on omitted faces were refused, and the primvar is one of the cage");
+        let numbers = [jet.value, jet.du, jet.dv];
+        let numbers = numbers.iter().flat_map(|x| &x[..primvar.width]);
+        numbers.copied().try_for_each(|x| write_number(out, x))?;
+    }
+    Ok(())
 }
 
 /// A column with 17 digits; `nan` for what does not exist.

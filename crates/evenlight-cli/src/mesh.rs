@@ -3,7 +3,8 @@
 use clap::{Args, ValueEnum};
 use evenlight::Surface;
 use evenlight::io::{glb, obj_out, ply_out, stl};
-use evenlight::tessellate::{TriangleMesh, tessellate};
+use evenlight::mesh::{Interpolation, Primvar};
+use evenlight::tessellate::{CornerValues, TriangleMesh, tessellate};
 
 use crate::cap::CapRingsArg;
 use crate::error::Failure;
@@ -20,8 +21,8 @@ pub struct MeshArgs {
     #[command(flatten)]
     caps: CapRingsArg,
 
-    /// The file to write: .obj with normals, .ply or .glb with normals and curvature, or .stl; `-`
-    /// for stdout
+    /// The file to write: .obj with normals and texture coordinates, .ply or .glb with normals and
+    /// curvature, or .stl; `-` for stdout
     #[arg(short, long, value_name = "FILE")]
     output: Target,
 
@@ -37,7 +38,7 @@ pub struct MeshArgs {
 /// Files that hold triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MeshFormat {
-    /// Wavefront OBJ with normals
+    /// Wavefront OBJ with normals, and the texture coordinates of the cage
     Obj,
     /// PLY with normals, Gauss and mean curvature per vertex
     Ply,
@@ -58,7 +59,8 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let mesh = triangles(&surface, args.rate.into())?;
     progress.step();
     progress.stage("Writing triangles");
-    write(&mesh, format, &args.output)
+    let texture = texture(&surface, &mesh).filter(|_| format == MeshFormat::Obj);
+    write(&mesh, texture.as_ref(), format, &args.output)
 }
 
 /// Triangles with `rate` segments per edge.
@@ -66,12 +68,26 @@ pub fn triangles(surface: &Surface, rate: usize) -> Result<TriangleMesh, Failure
     tessellate(surface, rate).map_err(|error| Failure::Unusable(error.to_string()))
 }
 
+/// The texture coordinates of the triangles: the first channel of the cage with values of corners
+/// that are two numbers or more.
+fn texture(surface: &Surface, mesh: &TriangleMesh) -> Option<CornerValues> {
+    let is_texture = |p: &Primvar| p.interpolation == Interpolation::FaceVarying && p.width >= 2;
+    let primvar = surface.primvars().iter().position(is_texture)?;
+    mesh.corner_values(surface, primvar)
+}
+
 /// Writes `mesh`.
-pub fn write(mesh: &TriangleMesh, format: MeshFormat, target: &Target) -> Result<(), Failure> {
-    target.write(|mut out| match format {
-        MeshFormat::Obj => obj_out::write(mesh, &mut out),
-        MeshFormat::Ply => ply_out::write(mesh, &mut out),
-        MeshFormat::Stl => stl::write(mesh, &mut out),
-        MeshFormat::Glb => glb::write(mesh, &mut out),
+pub fn write(
+    mesh: &TriangleMesh,
+    texture: Option<&CornerValues>,
+    format: MeshFormat,
+    target: &Target,
+) -> Result<(), Failure> {
+    target.write(|mut out| match (format, texture) {
+        (MeshFormat::Obj, None) => obj_out::write(mesh, &mut out),
+        (MeshFormat::Obj, Some(texture)) => obj_out::write_textured(mesh, texture, &mut out),
+        (MeshFormat::Ply, _) => ply_out::write(mesh, &mut out),
+        (MeshFormat::Stl, _) => stl::write(mesh, &mut out),
+        (MeshFormat::Glb, _) => glb::write(mesh, &mut out),
     })
 }

@@ -157,3 +157,25 @@ fn faces_that_are_left_out_are_said_to_be() {
     assert_eq!((code(&output), output.stdout.len()), (1, 0));
     assert!(stderr(&output).contains("is left out (holes, or at the boundary"));
 }
+
+/// Over a single quad with sharp corners texture coordinates are bilinear.
+#[test]
+fn primvars_are_columns_behind_the_others() {
+    let quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n\
+                t facevaryinginterpolateboundary 1/0/0 4\nf 1/1 2/2 3/3 4/4\n";
+    let (_folder, path) = file("cage.obj", quad);
+    let run = |more: &[&str]| {
+        let fixed = ["eval", arg(&path), "--points", "-", "--scheme", "cc"];
+        stdout(&run_on("0,0.25,0.5\n", &[&fixed[..], more].concat()))
+    };
+    let (plain, text) = (run(&[]), run(&["--primvars"]));
+    let header = text.lines().next().unwrap();
+    assert_eq!(header, format!("face,u,v,{ANSWER},st.0,st.1,st.0u,st.1u,st.0v,st.1v"));
+    let row = text.lines().nth(1).unwrap();
+    assert!(row.starts_with(plain.lines().nth(1).unwrap()));
+    let found = numbers(row, 3 + ANSWER.split(',').count());
+    for (found, expected) in found.iter().zip([0.5, 0.5, 2.0, 0.0, 0.0, 1.0]) {
+        assert!((found - expected).abs() < 1e-14, "{row}");
+    }
+    assert_eq!(found.len(), 6);
+}

@@ -69,7 +69,7 @@
 //!
 //! # What is not promised
 //!
-//! Faces at a boundary have no surface yet. A surface may intersect itself if its cage does.
+//! At boundaries, infinitely sharp creases and corners every scheme is Catmull-Clark. A surface may intersect itself if its cage does.
 //! Coordinates near the ends of the range of `f64` may overflow in derivatives.
 
 pub mod analyse;

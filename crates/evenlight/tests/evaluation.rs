@@ -296,7 +296,11 @@ fn bounded_curvature_has_a_limit_in_every_direction() {
                     at(&surface, sector, a * h, b * h).mean
                 };
                 let limit = mean(200);
-                assert!((mean(150) - limit).abs() < 1e-9 * limit.abs(), "{} n = {n}", scheme.name());
+                assert!(
+                    (mean(150) - limit).abs() < 1e-9 * limit.abs(),
+                    "{} n = {n}",
+                    scheme.name()
+                );
                 assert!(
                     (mean(900) - limit).abs() < 1e-11 * limit.abs(),
                     "{} n = {n}",

@@ -7,8 +7,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use common::{Random, options};
-use evenlight::io::obj;
+use evenlight::cap::CapOptions;
+use evenlight::io::{obj, obj_out};
 use evenlight::mesh::{FaceVaryingRule, Interpolation, Primvar};
+use evenlight::tessellate::tessellate;
 use evenlight::{Cage, Mesh, QuadId, SchemeKind, Surface};
 
 fn primvar(interpolation: Interpolation, width: usize, values: Vec<f64>, mesh: &Mesh) -> Primvar {
@@ -81,6 +83,26 @@ fn positions_as_a_channel_are_the_surface() {
             }
         }
     }
+}
+
+/// Channels are closed by caps where the surface is.
+#[test]
+fn channels_have_the_caps_of_the_surface() {
+    let mut mesh = common::mesh("own_blob_quadriflow_300.obj");
+    let values = coordinates(&mesh, 3);
+    mesh.primvars.push(primvar(Interpolation::Vertex, 3, values, &mesh));
+    let mut surface = Surface::build(Cage::new(mesh).unwrap(), options(SchemeKind::Qas4)).unwrap();
+    let point = surface.extraordinary_points()[0].sectors[0];
+    let [u, v] = [0, 1].map(|k| point.center[k] + 0.01 * (point.along[0][k] + point.along[1][k]));
+    let value = |surface: &Surface| {
+        let value = surface.eval_primvar(0, point.quad, u, v).unwrap().value;
+        let position = surface.eval(point.quad, u, v).unwrap().jet.p;
+        assert!(agree(&value[..3], &position, 1e-11), "{value:?}, not {position:?}");
+        value
+    };
+    let rings = value(&surface);
+    surface.set_caps(Some(CapOptions { rings: 2, ..CapOptions::default() })).unwrap();
+    assert!(rings != value(&surface), "the cap is another surface than the rings");
 }
 
 /// A cage with a texture, its corners' values by a function of their number.
@@ -161,4 +183,34 @@ fn what_is_not_there_has_no_value() {
     assert_eq!(surface.eval_primvar(1, quad, 0.5, 0.5), None);
     assert_eq!(surface.eval_primvar(0, QuadId(4), 0.5, 0.5), None);
     assert_eq!(surface.eval_primvar(0, quad, f64::NAN, 0.5), None);
+}
+
+/// Triangles share values where the channel is continuous: the unfolded cube has seams along 7 of
+/// its 12 edges, where vertices have the values of both sides.
+#[test]
+fn triangles_have_one_value_per_side_of_a_seam() {
+    let (rate, rule) = (4, FaceVaryingRule::CornersOnly);
+    let mut mesh = feature("uv_unfolded_cube.obj", rule);
+    let positions = coordinates(&mesh, 3);
+    mesh.primvars.push(primvar(Interpolation::FaceVarying, 3, positions, &mesh));
+    let surface = Surface::build(Cage::new(mesh).unwrap(), options(SchemeKind::Qas4)).unwrap();
+    let triangles = tessellate(&surface, rate).unwrap();
+    let without_seams = triangles.corner_values(&surface, 1).unwrap();
+    assert_eq!(without_seams.values.len(), triangles.positions.len());
+    for (corners, vertices) in without_seams.corners.iter().zip(&triangles.triangles) {
+        for (&value, &vertex) in corners.iter().zip(vertices) {
+            let position = triangles.positions[vertex as usize];
+            assert!(agree(&without_seams.values[value as usize][..3], &position, 1e-11));
+        }
+    }
+    let texture = triangles.corner_values(&surface, 0).unwrap();
+    // 14 values at the 8 vertices of the cage, and rate - 1 more along each seam.
+    let more = (14 - 8) + 7 * (rate - 1);
+    assert_eq!(texture.values.len(), triangles.positions.len() + more);
+    let mut text = Vec::new();
+    obj_out::write_textured(&triangles, &texture, &mut text).unwrap();
+    let read = obj::read(&text).unwrap().mesh;
+    assert_eq!(read.primvars[0].indices, texture.corners.concat());
+    let flat: Vec<f64> = texture.values.iter().flat_map(|value| value[..2].to_vec()).collect();
+    assert_eq!(read.primvars[0].values, flat);
 }

@@ -15,7 +15,8 @@
 //!          side 0
 //! ```
 //!
-//! A surface is C2 in these parameters across all borders except at extraordinary points.
+//! A surface is C2 in these parameters across all borders except at extraordinary points and
+//! infinitely sharp edges, where only positions agree; those are measured apart.
 
 use std::collections::BTreeMap;
 
@@ -59,8 +60,10 @@ pub struct Continuity {
     /// Per extraordinary point the largest jump of the mean curvature between two rings, in
     /// 1/unit.
     pub mean_jumps_across_rings: Vec<f64>,
-    /// Over all borders of all patches.
+    /// Over all borders of all patches but those on infinitely sharp edges.
     pub all: Jumps,
+    /// Over the borders on infinitely sharp edges: all but the position may jump there.
+    pub creases: Jumps,
 }
 
 /// Samples `samples` points inside every patch border of the surface with `rings` rings.
@@ -73,12 +76,15 @@ pub fn continuity(surface: &Surface, rings: usize, samples: usize) -> Continuity
         points: vec![Jumps::default(); num_points],
         mean_jumps_across_rings: vec![0.0; num_points],
         all: Jumps::default(),
+        creases: Jumps::default(),
     };
     for (_, patches) in patches_by_quad(surface, rings) {
         for (k, patch) in patches.iter().enumerate() {
             let mut jumps = Jumps::default();
             for (u, v) in border_points(patch, samples) {
-                jumps = jumps.max(jumps_at(surface, &patches, k, [u, v]));
+                let found = jumps_at(surface, &patches, k, [u, v]);
+                jumps = jumps.max(found.smooth);
+                result.creases = result.creases.max(found.crease);
                 if let Some(point) = patch.point {
                     let largest = &mut result.mean_jumps_across_rings[point];
                     *largest = largest.max(mean_jump_across_rings(surface, &patches, k, [u, v]));
@@ -110,9 +116,16 @@ fn border_points(patch: &PatchPlace, samples: usize) -> Vec<(f64, f64)> {
     along_u.chain(along_v).collect()
 }
 
+/// The jumps at a point, those over an infinitely sharp edge apart.
+#[derive(Clone, Copy, Default)]
+struct Found {
+    smooth: Jumps,
+    crease: Jumps,
+}
+
 /// The jumps between patch `k` of a quad and everything else that has the point `at` of its
 /// border.
-fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -> Jumps {
+fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -> Found {
     let size = patches[k].domain.map(|[start, end]| end - start);
     let here = surface.eval_on(&patches[k], at[0], at[1]);
     let inside = patches.iter().enumerate().filter(|&(j, p)| j != k && contains(p, at));
@@ -124,7 +137,7 @@ fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -
     }
     if let Some(side) = (0..4).find(|&side| is_on_side(side, at)) {
         let Some((quad, other_side, t, speed)) = across(surface, patches[k].quad, side, at) else {
-            return jumps;
+            return Found { smooth: jumps, ..Found::default() };
         };
         let [u, v] = point_on_side(other_side, t);
         if let Some(there) = surface.eval(quad, u, v) {
@@ -132,7 +145,11 @@ fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -
             let jet = border_jet(other_side, &there.jet).scaled_parameters(-speed);
             let here = SurfacePoint { jet: border_jet(side, &here.jet), ..here };
             let size = if side.is_multiple_of(2) { size } else { [size[1], size[0]] };
-            jumps = jumps.max(compare(&here, &SurfacePoint { jet, ..there }, size));
+            let beyond = compare(&here, &SurfacePoint { jet, ..there }, size);
+            if is_crease(surface, patches[k].quad, side) {
+                return Found { smooth: jumps, crease: beyond };
+            }
+            jumps = jumps.max(beyond);
         }
     } else if alone && patches[k].point.is_none_or(|point| surface.cap(point).is_none()) {
         // The inner border of the last ring: evaluation answers with the ring behind it.
@@ -140,7 +157,22 @@ fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -
             jumps = jumps.max(compare(&here, &there, size));
         }
     }
-    jumps
+    Found { smooth: jumps, ..Found::default() }
+}
+
+/// Whether a side of a quad lies on an infinitely sharp edge.
+fn is_crease(surface: &Surface, quad: QuadId, side: usize) -> bool {
+    let topology = surface.cage().topology();
+    let (face, k) = surface.face_of(quad);
+    let corners = topology.faces().corners(face).len();
+    let edge = match (corners == 4, side) {
+        (true, _) => side,
+        (false, 0) => k,
+        (false, 3) => (k + corners - 1) % corners,
+        // Inside an n-gon.
+        (false, _) => return false,
+    };
+    surface.is_infinitely_sharp(topology.half_edge(face, edge))
 }
 
 /// The jump of H between patch `k` of a quad and the patches of other rings at the point `at` of

@@ -125,6 +125,12 @@ impl Tagged {
             Self::Face(f) => format!("face {}", names.face(f)),
         }
     }
+
+    fn describe_unknown(self, names: &dyn Names) -> String {
+        let state = if matches!(self, Self::Face(_)) { "a hole" } else { "sharp" };
+        let what = self.describe(names);
+        format!("{what} is {state}, but it is not in the mesh: correct or delete the tag")
+    }
 }
 
 impl MeshError {
@@ -136,11 +142,9 @@ impl MeshError {
             Self::NoFaces { num_vertices } => {
                 format!("there are no faces ({num_vertices} vertices): give the mesh its faces")
             }
-            Self::TooLarge { what, count, limit } => {
-                format!(
-                    "there are {count} {what}, but at most {limit} can be numbered: split the mesh"
-                )
-            }
+            Self::TooLarge { what, count, limit } => format!(
+                "there are {count} {what}, but at most {limit} can be numbered: split the mesh"
+            ),
             Self::NonFinitePosition { vertex: v, position: [x, y, z] } => format!(
                 "vertex {} is at ({x}, {y}, {z}): give it coordinates that are finite numbers",
                 vertex(v)
@@ -188,11 +192,7 @@ impl MeshError {
                  each fan has its own",
                 vertex(v)
             ),
-            Self::UnknownTag { what } => format!(
-                "{} is {}, but it is not in the mesh: correct or delete the tag",
-                what.describe(names),
-                if matches!(what, Tagged::Face(_)) { "a hole" } else { "sharp" }
-            ),
+            Self::UnknownTag { what } => what.describe_unknown(names),
             Self::Sharpness { what, sharpness } => format!(
                 "{} has sharpness {sharpness}: give it one from 0 (smooth) to 10 (sharp for ever)",
                 what.describe(names)

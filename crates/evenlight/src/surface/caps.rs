@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use super::Surface;
+use super::{Surface, primvar};
 use crate::cap::{Cap, CapError, CapOptions, ValenceCap};
 use crate::parallel::map_indexed;
 use crate::rings::{Rings, ValenceRules};
@@ -12,11 +12,10 @@ use crate::rings::{Rings, ValenceRules};
 pub(super) struct Caps {
     pub(super) options: CapOptions,
     /// Per point the rules, shared among those alike, and the cap; or why rings go on for ever.
-    around: Vec<Result<Around, CapError>>,
+    around: Vec<Around>,
 }
 
-/// The rules of a cap, and the cap once it was asked for.
-type Around = (Arc<ValenceCap>, OnceLock<Cap>);
+type Around = Result<(Arc<ValenceCap>, OnceLock<Cap>), CapError>;
 
 impl Caps {
     /// # Errors
@@ -70,6 +69,8 @@ impl Surface {
     /// [`CapError`] if there are no such caps for the rings; the surface stays as it was.
     pub fn set_caps(&mut self, options: Option<CapOptions>) -> Result<(), CapError> {
         self.caps = options.map(|options| Caps::new(&self.rings, options)).transpose()?;
+        // Channels are closed likewise.
+        self.channels = primvar::unbuilt(&self.cage);
         Ok(())
     }
 

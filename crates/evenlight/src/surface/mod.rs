@@ -29,7 +29,7 @@ pub use rule::{PointRule, Reason};
 use std::sync::{Arc, OnceLock};
 
 use crate::mesh::isolation::{CORNERS, Piece, Plan};
-use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, VertexId};
+use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, VertexId};
 use crate::net::Quadratic;
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::{Jet, Patch, SurfacePoint};
@@ -189,6 +189,13 @@ impl Surface {
     /// Whether there is no surface over `face`: a hole, or at the boundary under the rule "none".
     pub fn is_omitted(&self, face: FaceId) -> bool {
         self.plan.omitted.binary_search(&face).is_ok()
+    }
+
+    /// Whether the surface may have a fold along an edge of the cage: it is infinitely sharp or on
+    /// the boundary.
+    pub fn is_infinitely_sharp(&self, h: HalfEdgeId) -> bool {
+        self.plan.sharpness[0].edge(self.cage.topology(), h) >= INFINITELY_SHARP
+            || self.cage.topology().twin(h).is_none()
     }
 
     /// The faces without a surface, in order.

@@ -14,6 +14,7 @@
 use std::sync::{Arc, OnceLock};
 
 use super::{QuadId, Surface, SurfaceOptions};
+use crate::cap::CapOptions;
 use crate::mesh::channel::{ChannelNet, triple};
 use crate::mesh::{Cage, FaceVaryingRule, Interpolation, Mesh, Primvar};
 use crate::patch::Jet;
@@ -78,7 +79,8 @@ pub(super) enum Channel {
 }
 
 impl Channel {
-    fn new(cage: &Cage, primvar: &Primvar, options: SurfaceOptions) -> Self {
+    fn new(surface: &Surface, primvar: &Primvar) -> Self {
+        let (cage, options, caps) = (&surface.cage, surface.options, surface.cap_options());
         let parts = (0..primvar.width).step_by(3);
         match primvar.interpolation {
             Interpolation::Varying => Self::Linear,
@@ -90,11 +92,12 @@ impl Channel {
                 let net = ChannelNet::new(cage, primvar, boundary);
                 // The channel has a boundary rule of its own.
                 let options = SurfaceOptions { boundary: None, ..options };
-                let surface = |first| Self::surface(net.mesh(primvar, first), options);
+                let surface = |first| Self::surface(net.mesh(primvar, first), options, caps);
                 Self::Smooth(parts.map(surface).collect())
             }
             Interpolation::Vertex => {
-                let surface = |first| Self::surface(as_positions(cage, primvar, first), options);
+                let surface =
+                    |first| Self::surface(as_positions(cage, primvar, first), options, caps);
                 Self::Smooth(parts.map(surface).collect())
             }
         }
@@ -103,10 +106,13 @@ impl Channel {
     /// The surface over a channel's mesh. There always is one: its smooth extraordinary points are
     /// among those of the positions, for which the scheme has rules, and the others have those of
     /// Catmull-Clark.
-    fn surface(mesh: Mesh, options: SurfaceOptions) -> Option<Surface> {
+    fn surface(mesh: Mesh, options: SurfaceOptions, caps: Option<CapOptions>) -> Option<Surface> {
         let surface = Surface::build(Arc::new(Cage::new(mesh).ok()?), options).ok();
         debug_assert!(surface.is_some(), "a channel has no points that the positions have not");
-        surface
+        let mut surface = surface?;
+        let closed = surface.set_caps(caps);
+        debug_assert!(closed.is_ok(), "its rings are as those of the positions");
+        Some(surface)
     }
 }
 
@@ -148,8 +154,7 @@ impl Surface {
         if self.is_omitted(self.face_of(quad).0) {
             return None;
         }
-        let channel =
-            self.channels[primvar].get_or_init(|| Channel::new(&self.cage, of_cage, self.options));
+        let channel = self.channels[primvar].get_or_init(|| Channel::new(self, of_cage));
         let surfaces = match channel {
             Channel::Linear => return Some(self.eval_linear(of_cage, quad, u, v)),
             Channel::Smooth(surfaces) => surfaces,

@@ -23,7 +23,10 @@
 //! are left out, and where two faces with a surface share nothing but a vertex, so do their
 //! triangles.
 
+mod corners;
 mod nodes;
+
+pub use corners::CornerValues;
 
 use std::collections::BTreeMap;
 
