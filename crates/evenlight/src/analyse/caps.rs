@@ -146,7 +146,8 @@ impl Around<'_> {
     fn scale(self) -> f64 {
         let (mut largest, mut extent) = (0.0_f64, 0.0_f64);
         for s in self.sectors() {
-            for (a, b) in self.along().flat_map(|a| self.along().map(move |b| (a, b))) {
+            let coarse = || self.along().step_by(4);
+            for (a, b) in coarse().flat_map(|a| coarse().map(move |b| (a, b))) {
                 let p = self.eval(s, a, b);
                 let [k1, k2] = p.principal_curvatures();
                 largest = largest.max(k1.abs()).max(k2.abs());
