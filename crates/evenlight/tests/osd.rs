@@ -46,9 +46,9 @@ fn golden(path: &Path) -> BTreeMap<String, Expected> {
         let words: Vec<&str> = line.split(' ').collect();
         match words[..] {
             ["positions"] | ["uv", _] => name = (*words.last().unwrap()).to_owned(),
-            ["uv", ref mode, "as", ref other] => {
+            ["uv", mode, "as", other] => {
                 let same: Expected = sections.get::<str>(other).cloned().unwrap();
-                sections.insert((*mode).to_owned(), same);
+                sections.insert(mode.to_owned(), same);
             }
             ["omitted", face] => {
                 let section: &mut Expected = sections.entry(name.clone()).or_default();
