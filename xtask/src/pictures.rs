@@ -84,7 +84,7 @@ fn pinch() -> Result<Picture> {
     highlight_lines(
         "data/meshes/obstacle/saddle_n8.obj",
         &[SchemeKind::CatmullClark, SchemeKind::EvolvingGuide, SchemeKind::Qas4],
-        8.0,
+        5.0,
     )
 }
 
@@ -92,8 +92,8 @@ fn pinch() -> Result<Picture> {
 fn family() -> Result<Picture> {
     highlight_lines(
         "data/meshes/obstacle/ridges_n7.obj",
-        &[SchemeKind::EvolvingGuide, SchemeKind::Qas4, SchemeKind::Qas3],
-        1.5,
+        &[SchemeKind::EvolvingGuide, SchemeKind::Qas4, SchemeKind::Fair4, SchemeKind::Guided5],
+        2.5,
     )
 }
 

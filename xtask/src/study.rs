@@ -242,9 +242,12 @@ fn extrema(values: &[f64], turn: f64) -> usize {
     count
 }
 
+/// A valence and, for a node across a face and one along an edge, a number for every scheme.
+type Spikes = (usize, [Vec<f64>; 2]);
+
 /// For each valence and scheme the far-side |H| of a spike over its largest |H|: at a node across a
 /// face, and at one along an edge.
-fn spikes() -> Result<Vec<(usize, [Vec<f64>; 2])>, Box<dyn Error>> {
+fn spikes() -> Result<Vec<Spikes>, Box<dyn Error>> {
     let valences = [3, 5, 6, 7, 8, 9, 10];
     let measured = map_on_threads(&valences, |&n| {
         let file = crate::workspace(OBSTACLES).join(format!("flat_n{n}.obj"));
@@ -326,8 +329,11 @@ const RATIOS: [Named; 5] = [
 const COUNTS: [Named; 2] =
     [("extrema along rays", |m| m.along_extrema), ("extrema around rings", |m| m.around_extrema)];
 
+/// A title and the valences under it.
+type Group = (&'static str, fn(usize) -> bool);
+
 fn tables(out: &mut String, rows: &[Row]) -> fmt::Result {
-    let groups: [(&str, fn(usize) -> bool); 3] =
+    let groups: [Group; 3] =
         [("n = 3, 5, 6", |n| n < 7), ("n = 7 to 10", |n| n >= 7), ("all", |_| true)];
     for (title, belongs) in groups {
         let rows: Vec<&Row> = rows.iter().filter(|row| belongs(row.valence)).collect();
@@ -370,7 +376,7 @@ fn convex_table(out: &mut String, rows: &[Row]) -> fmt::Result {
     line(out, "least K over scale squared", (0..SCHEMES.len()).map(least))
 }
 
-fn spike_table(out: &mut String, spikes: &[(usize, [Vec<f64>; 2])]) -> fmt::Result {
+fn spike_table(out: &mut String, spikes: &[Spikes]) -> fmt::Result {
     for (kind, title) in ["across a face", "along an edge"].into_iter().enumerate() {
         writeln!(out, "\n### Far-side H of a spike {title}, over its largest H\n")?;
         header(out, "n")?;

@@ -216,7 +216,6 @@ fn energy_by_differences(patch: &Patch) -> f64 {
 /// and six rings, to the three digits that it prints; of fair4 it prints four.
 #[allow(clippy::approx_constant, reason = "the number of n = 3 happens to look like lg e")]
 #[test]
-#[allow(clippy::approx_constant, reason = "an energy of .4342 happens to look like log10 e")]
 fn fair_schemes_have_the_energies_of_the_specification() {
     let printed = [
         (SchemeKind::Fair4, [0.4342, 0.5121, 0.3506, 0.2847, 0.2600, 0.2538, 0.2575], 1e-4),
