@@ -13,7 +13,7 @@ use evenlight::{Cage, SchemeKind, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
-use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text};
+use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text, valence_warning};
 use crate::options::{BoundaryArg, scheme_parser};
 use crate::output::Target;
 
@@ -181,7 +181,8 @@ impl Report {
             ..Self::default()
         };
         let points = isolation::extraordinary_points(cage, boundary);
-        report.warnings.extend(valence_warning(&points, options));
+        let smooth = points.iter().filter(|p| p.is_covered && p.fan.is_smooth());
+        report.warnings.extend(valence_warning(smooth.map(|p| (p.place, p.valence)), options));
         if omitted > 0 {
             report.warnings.push(omitted_text(omitted, cage.num_faces()));
         }
@@ -305,34 +306,4 @@ fn histogram(counts: &BTreeMap<usize, usize>, of: &str) -> String {
     }
     let entries: Vec<String> = counts.iter().map(|(n, k)| format!("{k} with {n}")).collect();
     format!("{} {of}", entries.join(", "))
-}
-
-/// The most points that a warning names.
-const LISTED: usize = 8;
-
-/// The sentence on points for which the scheme has no rules.
-fn valence_warning(points: &[Extraordinary], options: SurfaceOptions) -> Option<String> {
-    let SurfaceOptions { scheme, rules, .. } = options;
-    let without_rules = |p: &&Extraordinary| {
-        p.is_covered && p.fan.is_smooth() && !scheme.has_rules(rules, p.valence)
-    };
-    let name = |p: &Extraordinary| match p.place {
-        Place::Vertex(v) => format!("vertex {} has valence {}", v.0, p.valence),
-        Place::FaceCentre(f) => format!("face {} has {} corners", f.0, p.valence),
-    };
-    let mut names: Vec<String> = points.iter().filter(without_rules).map(name).collect();
-    if names.is_empty() {
-        return None;
-    }
-    let more = names.len().saturating_sub(LISTED);
-    names.truncate(LISTED);
-    if more > 0 {
-        names.push(format!("{more} more"));
-    }
-    Some(format!(
-        "scheme {} has rules for valences {} only, cc takes their place: {} (numbers from 0)",
-        scheme.name(),
-        scheme.valences(rules),
-        names.join(", ")
-    ))
 }

@@ -44,9 +44,8 @@ pub struct EvalArgs {
     /// digits; `-` for stdout
     ///
     /// At an extraordinary point itself, unless --cap closes it, derivatives do not exist: they are
-    /// `nan`. K and H are
-    /// those of the quadratic there for qas3 and qas4, and `nan` for the other schemes, whose
-    /// curvature has no limit.
+    /// `nan`. K and H are those of the quadratic or of the guide there for qas3, qas4, fair3, fair4
+    /// and guided3 to guided6, and `nan` for the other schemes.
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: Target,
 }

@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use clap::Args;
 use evenlight::io::load::{Format, LoadError, Loaded};
-use evenlight::surface::SurfaceError;
+use evenlight::mesh::isolation::Place;
+use evenlight::surface::{PointRule, Reason, SurfaceError};
 use evenlight::{Cage, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
@@ -138,16 +139,59 @@ pub fn read_mesh(arg: &CageArg) -> Result<Result<Loaded, LoadError>, Failure> {
     Ok(format.read(&bytes, arg.prim.as_deref()))
 }
 
-/// The surface over `cage`, which was read from `source`.
+/// The surface over `cage`, which was read from `source`; says on stderr which points have not the
+/// rules of the scheme because it has none for their valence.
 pub fn build(
     cage: Arc<Cage>,
     options: SurfaceOptions,
     source: &Source,
 ) -> Result<Surface, Failure> {
-    Surface::build(cage, options).map_err(|error| match error {
+    let surface = Surface::build(cage, options).map_err(|error| match error {
         SurfaceError::Contraction(error) => Failure::Usage(error.to_string()),
         error => Failure::Unusable(format!("{source}: {error}")),
-    })
+    })?;
+    let places = surface.extraordinary_points().iter().filter_map(|point| {
+        let place = point.vertex.map(Place::Vertex).or(point.face.map(Place::FaceCentre))?;
+        (point.rule == PointRule::CatmullClark(Reason::Valence)).then_some((place, point.valence))
+    });
+    if let Some(warning) = valence_warning(places, options) {
+        warn(format_args!("{source}: {warning}"));
+    }
+    Ok(surface)
+}
+
+/// The most points that a warning names.
+const LISTED: usize = 8;
+
+/// The sentence on the points, with their valences, for which the scheme has no rules.
+pub fn valence_warning(
+    points: impl Iterator<Item = (Place, usize)>,
+    options: SurfaceOptions,
+) -> Option<String> {
+    let SurfaceOptions { scheme, rules, .. } = options;
+    let name = |(place, valence): (Place, usize)| match place {
+        Place::Vertex(v) => format!("vertex {} has valence {valence}", v.0),
+        Place::FaceCentre(f) => format!("face {} has {valence} corners", f.0),
+    };
+    let without_rules = points.filter(|&(_, valence)| !scheme.has_rules(rules, valence));
+    let mut names: Vec<String> = without_rules.map(name).collect();
+    if names.is_empty() {
+        return None;
+    }
+    let more = names.len().saturating_sub(LISTED);
+    names.truncate(LISTED);
+    if more > 0 {
+        names.push(format!("{more} more"));
+    }
+    let valences = match scheme.valences(rules) {
+        "none" => "no published rules".to_owned(),
+        valences => format!("rules for valences {valences} only"),
+    };
+    Some(format!(
+        "scheme {} has {valences}, cc takes their place: {} (numbers from 0)",
+        scheme.name(),
+        names.join(", ")
+    ))
 }
 
 /// Says on stderr which faces have no surface.

@@ -73,3 +73,20 @@ fn ply_has_curvature_properties() {
     assert!(header.contains("property float gauss_curvature"), "{header}");
     assert!(header.contains("property float mean_curvature"));
 }
+
+/// Nothing falls back silently: a scheme without rules for a point says that it is Catmull-Clark.
+#[test]
+fn catmull_clark_in_place_of_the_scheme_is_told() {
+    let pillow = cage(PILLOW);
+    let stderr = |scheme: &[&str]| {
+        let fixed = ["mesh", arg(&pillow), "-o", "-", "--format", "obj", "--rate", "1"];
+        let output = run(&[&fixed[..], scheme].concat());
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let told = stderr(&["--scheme", "guided5", "--rules", "published"]);
+    let sentence =
+        "scheme guided5 has no published rules, cc takes their place: vertex 0 has valence";
+    assert!(told.contains(sentence) && told.contains(" more (numbers from 0)"), "{told}");
+    assert_eq!(stderr(&["--scheme", "guided5"]), "");
+}
