@@ -11,7 +11,7 @@ use evenlight_guide::linear::Matrix;
 use evenlight_guide::real::Real;
 use serde_json::Value;
 
-const VALENCES: [usize; 5] = [3, 5, 6, 8, 10];
+const VALENCES: [usize; 7] = [3, 5, 6, 7, 8, 9, 10];
 
 /// The sector of which rings and caps are given.
 const SECTOR: usize = 1;

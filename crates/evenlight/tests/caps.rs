@@ -262,7 +262,7 @@ fn golden_cnet(golden: &Value, n: usize) -> CNet {
 /// The paper's cap behind two bi-6 rings, computed by an independent program.
 #[test]
 fn bi_6_caps_of_guided_rings_are_the_prototypes() {
-    for n in [3, 5, 6, 8, 10] {
+    for n in [3, 5, 6, 7, 8, 9, 10] {
         let golden = golden(n);
         let rings = rings(&golden_cnet(&golden, n), SchemeKind::Guided6);
         let cap = Cap::new(&rings, CapOptions { rings: 2, kind: CapKind::Bi6 }).expect("it fits");

@@ -35,7 +35,7 @@ fn cnet(golden: &Value, n: usize) -> CNet {
 /// Rings 0 and 1 of sector 1: the guide's table, chi, the border and the sampling in one.
 #[test]
 fn rings_of_a_cnet_are_the_prototypes() {
-    for n in [3, 5, 6, 8, 10] {
+    for n in [3, 5, 6, 7, 8, 9, 10] {
         let golden = golden(n);
         let cnet = cnet(&golden, n);
         for (kind, name) in [(SchemeKind::Guided5, "bi5"), (SchemeKind::Guided6, "bi6")] {
@@ -62,7 +62,7 @@ fn rings_of_a_cnet_are_the_prototypes() {
 /// middles of the outer edges, where they have those of the splines along the edges.
 #[test]
 fn splines_keep_the_corners_of_bi_5_rings() {
-    for n in [3, 5, 6, 8, 10] {
+    for n in [3, 5, 6, 7, 8, 9, 10] {
         let cnet = cnet(&golden(n), n);
         let rings = |kind| Rings::from_cnet(&cnet, kind, RuleSet::Generated).unwrap();
         let quintic = rings(SchemeKind::Guided5);
@@ -94,7 +94,7 @@ fn splines_keep_the_corners_of_bi_5_rings() {
 /// continuous; with the others it stays bounded.
 #[test]
 fn curvature_is_continuous_with_bi_6_rings_and_bounded_with_the_others() {
-    for n in [3, 5, 6, 8, 10] {
+    for n in [3, 5, 6, 7, 8, 9, 10] {
         let cnet = cnet(&golden(n), n);
         for kind in
             [SchemeKind::Guided3, SchemeKind::Guided4, SchemeKind::Guided5, SchemeKind::Guided6]
