@@ -77,7 +77,7 @@ pub const LEGEND: [&str; 5] = [
      the curvature on that border.",
     "energy: the integral of |grad H|^2 over rings 1 to 4 (1/unit^2), for comparison of schemes.",
     "jumps: of H between rings (1/unit); of position (units), tangent plane (radians) and \
-     curvature (1/unit) across all patch borders.",
+     curvature (1/unit) across all patch borders but those of caps.",
 ];
 
 /// What the columns of the table of caps mean.

@@ -24,13 +24,13 @@ pub enum CapChoice {
     None,
     /// What suits the scheme: bi6 for guided6, bi4 for guided3 and guided4, else bi5
     Auto,
-    /// Bi-3, 3 x 3 patches per sector; tangent planes across lines agree to small angles only
+    /// Bi-3, 3 x 3 patches per sector (more where the rings are split); tangent planes across lines agree to small angles only
     Bi3,
-    /// Bi-4, 2 x 2 patches per sector
+    /// Bi-4, 2 x 2 patches per sector, or as the rings are split
     Bi4,
-    /// Bi-5, 2 x 2 patches per sector
+    /// Bi-5, 2 x 2 patches per sector, or as the rings are split
     Bi5,
-    /// Bi-6, one patch per sector
+    /// Bi-6, one patch per sector, or as the rings are split
     Bi6,
 }
 
