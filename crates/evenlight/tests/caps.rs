@@ -1,5 +1,6 @@
 //! Caps: what they promise, for every scheme, degree and number of rings.
 
+mod golden;
 mod nets;
 
 use evenlight::cap::{Cap, CapError, CapKind, CapOptions};
@@ -7,7 +8,6 @@ use evenlight::net::CNet;
 use evenlight::point::{Vector, add, cross, dot, norm, scale, sub};
 use evenlight::rings::Rings;
 use evenlight::{RuleSet, SchemeKind, SurfacePoint};
-use serde_json::Value;
 
 const VALENCES: [usize; 7] = [3, 5, 6, 7, 8, 9, 10];
 
@@ -235,39 +235,15 @@ fn deep_caps_are_as_exact_as_others() {
     }
 }
 
-fn golden(n: usize) -> Value {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/golden/guided");
-    let file = std::fs::read_to_string(format!("{folder}/n{n:02}.json"))
-        .expect("a file of the repository");
-    serde_json::from_str(&file).expect("it is JSON")
-}
-
-fn point(value: &Value) -> [f64; 3] {
-    [0, 1, 2].map(|k| value[k].as_f64().expect("three numbers"))
-}
-
-/// The c-net; nodes (1,0) (2,0) (1,1) (2,1) (1,2) (2,2) of each sector, then e.
-fn golden_cnet(golden: &Value, n: usize) -> CNet {
-    let nodes = golden["cnet"].as_array().expect("a list of nodes");
-    let mut sectors = vec![[[0.0; 3]; 6]; n];
-    for (s, k) in (0..n).flat_map(|s| (0..6).map(move |k| (s, k))) {
-        let (a, b) = [(1, 0), (2, 0), (1, 1), (2, 1), (1, 2), (2, 2)][k];
-        // Nodes on a line belong to the sector before.
-        let (sector, node) = if b == 0 { ((s + n - 1) % n, a - 1) } else { (s, 2 * a + b - 1) };
-        sectors[sector][node] = point(&nodes[6 * s + k]);
-    }
-    CNet { center: point(&nodes[6 * n]), sectors }
-}
-
 /// The paper's cap behind two bi-6 rings, computed by an independent program.
 #[test]
 fn bi_6_caps_of_guided_rings_are_the_prototypes() {
     for n in [3, 5, 6, 7, 8, 9, 10] {
-        let golden = golden(n);
-        let rings = rings(&golden_cnet(&golden, n), SchemeKind::Guided6);
+        let golden = golden::guided(n);
+        let rings = rings(&golden::cnet(&golden, n), SchemeKind::Guided6);
         let cap = Cap::new(&rings, CapOptions { rings: 2, kind: CapKind::Bi6 }).expect("it fits");
         for (k, &p) in cap.patch(&rings, 1, 0).coefs().iter().enumerate() {
-            let expected = point(&golden["cap_bi6"][k / 7][k % 7]);
+            let expected = golden::point(&golden["cap_bi6"][k / 7][k % 7]);
             assert!(norm(sub(p, expected)) < 1e-12, "n = {n}, {k}: {p:?} {expected:?}");
         }
     }

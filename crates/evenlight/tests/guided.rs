@@ -1,43 +1,19 @@
 //! Guided subdivision: rings against `data/golden/guided`, computed by an independent program.
 
-use evenlight::net::CNet;
+mod golden;
+
 use evenlight::rings::Rings;
 use evenlight::{RuleSet, SchemeKind};
-use serde_json::Value;
 
 /// Prototype data are good to about 1e-13.
 const TOLERANCE: f64 = 1e-12;
-
-fn golden(n: usize) -> Value {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/golden/guided");
-    let file = std::fs::read_to_string(format!("{folder}/n{n:02}.json"))
-        .expect("a file of the repository");
-    serde_json::from_str(&file).expect("it is JSON")
-}
-
-fn point(value: &Value) -> [f64; 3] {
-    [0, 1, 2].map(|k| value[k].as_f64().expect("three numbers"))
-}
-
-/// The c-net; nodes (1,0) (2,0) (1,1) (2,1) (1,2) (2,2) of each sector, then e.
-fn cnet(golden: &Value, n: usize) -> CNet {
-    let nodes = golden["cnet"].as_array().expect("a list of nodes");
-    let mut sectors = vec![[[0.0; 3]; 6]; n];
-    for (s, k) in (0..n).flat_map(|s| (0..6).map(move |k| (s, k))) {
-        let (a, b) = [(1, 0), (2, 0), (1, 1), (2, 1), (1, 2), (2, 2)][k];
-        // Nodes on a line belong to the sector before.
-        let (sector, node) = if b == 0 { ((s + n - 1) % n, a - 1) } else { (s, 2 * a + b - 1) };
-        sectors[sector][node] = point(&nodes[6 * s + k]);
-    }
-    CNet { center: point(&nodes[6 * n]), sectors }
-}
 
 /// Rings 0 and 1 of sector 1: the guide's table, chi, the border and the sampling in one.
 #[test]
 fn rings_of_a_cnet_are_the_prototypes() {
     for n in [3, 5, 6, 7, 8, 9, 10] {
-        let golden = golden(n);
-        let cnet = cnet(&golden, n);
+        let golden = golden::guided(n);
+        let cnet = golden::cnet(&golden, n);
         for (kind, name) in [(SchemeKind::Guided5, "bi5"), (SchemeKind::Guided6, "bi6")] {
             let rings = Rings::from_cnet(&cnet, kind, RuleSet::Generated).unwrap();
             for ring in [0, 1] {
@@ -48,7 +24,7 @@ fn rings_of_a_cnet_are_the_prototypes() {
                     for (k, p) in patch.coefs().iter().enumerate() {
                         let expected =
                             &golden[format!("ring{ring}_{name}")][square][k / order][k % order];
-                        for (a, b) in p.iter().zip(point(expected)) {
+                        for (a, b) in p.iter().zip(golden::point(expected)) {
                             assert!((a - b).abs() < TOLERANCE, "n = {n} {name}: {a} {b}");
                         }
                     }
@@ -63,7 +39,7 @@ fn rings_of_a_cnet_are_the_prototypes() {
 #[test]
 fn splines_keep_the_corners_of_bi_5_rings() {
     for n in [3, 5, 6, 7, 8, 9, 10] {
-        let cnet = cnet(&golden(n), n);
+        let cnet = golden::cnet(&golden::guided(n), n);
         let rings = |kind| Rings::from_cnet(&cnet, kind, RuleSet::Generated).unwrap();
         let quintic = rings(SchemeKind::Guided5);
         for (kind, split) in [(SchemeKind::Guided4, 2), (SchemeKind::Guided3, 3)] {
@@ -95,7 +71,7 @@ fn splines_keep_the_corners_of_bi_5_rings() {
 #[test]
 fn curvature_is_continuous_with_bi_6_rings_and_bounded_with_the_others() {
     for n in [3, 5, 6, 7, 8, 9, 10] {
-        let cnet = cnet(&golden(n), n);
+        let cnet = golden::cnet(&golden::guided(n), n);
         for kind in
             [SchemeKind::Guided3, SchemeKind::Guided4, SchemeKind::Guided5, SchemeKind::Guided6]
         {

@@ -2,11 +2,11 @@
 //! nestedness, supports, Bezier extraction.
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
+mod golden;
+
 use evenlight::basis::{FunctionKind, RefinableSpace, ScalarJet};
-use evenlight::net::CNet;
 use evenlight::rings::Rings;
 use evenlight::{Contraction, RuleSet, SchemeKind};
-use serde_json::Value;
 
 const SCHEMES: [SchemeKind; 2] = [SchemeKind::Guided5, SchemeKind::Guided6];
 
@@ -439,34 +439,13 @@ fn elements_and_evaluators_agree() {
     }
 }
 
-fn golden(n: usize) -> Value {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/golden/guided");
-    serde_json::from_str(&std::fs::read_to_string(format!("{folder}/n{n:02}.json")).unwrap())
-        .unwrap()
-}
-
-fn point(value: &Value) -> [f64; 3] {
-    [0, 1, 2].map(|k| value[k].as_f64().unwrap())
-}
-
-/// The c-net of a golden file; nodes (1,0) (2,0) (1,1) (2,1) (1,2) (2,2) of each sector, then e.
-fn cnet(golden: &Value, n: usize) -> CNet {
-    let mut sectors = vec![[[0.0; 3]; 6]; n];
-    for (s, k) in (0..n).flat_map(|s| (0..6).map(move |k| (s, k))) {
-        let (a, b) = [(1, 0), (2, 0), (1, 1), (2, 1), (1, 2), (2, 2)][k];
-        let (sector, node) = if b == 0 { ((s + n - 1) % n, a - 1) } else { (s, 2 * a + b - 1) };
-        sectors[sector][node] = point(&golden["cnet"][6 * s + k]);
-    }
-    CNet { center: point(&golden["cnet"][6 * n]), sectors }
-}
-
 /// The surface itself is in every space: of the golden files (rings 0 and 1 of sector 1, computed
 /// by an independent program) and of `Rings`.
 #[test]
 fn the_surface_of_a_net_is_in_every_space() {
     for (n, m) in [(3, 0), (5, 1), (6, 2), (8, 3), (10, 1)] {
-        let golden = golden(n);
-        let net = cnet(&golden, n);
+        let golden = golden::guided(n);
+        let net = golden::cnet(&golden, n);
         let nodes: Vec<[f64; 3]> =
             net.sectors.iter().flatten().copied().chain([net.center]).collect();
         for (kind, name) in SCHEMES.into_iter().zip(["bi5", "bi6"]) {
@@ -493,7 +472,10 @@ fn the_surface_of_a_net_is_in_every_space() {
                     for (at, b) in space.coefs_of_sum(&values, ring, 1, which).iter().enumerate() {
                         let exact =
                             &golden[format!("ring{ring}_{name}")][square][at / order][at % order];
-                        assert!((b - point(exact)[k]).abs() < 1e-12, "{name} n = {n} ring {ring}");
+                        assert!(
+                            (b - golden::point(exact)[k]).abs() < 1e-12,
+                            "{name} n = {n} ring {ring}"
+                        );
                     }
                 }
             }

@@ -61,6 +61,12 @@ pub fn mutated(text: &[u8], usual: &[u8], random: &mut Random) -> Vec<u8> {
     text
 }
 
+/// Asserts that a message of errors names a place, lists few faults and shows on any terminal.
+pub fn assert_readable(message: &str) {
+    assert!(message.contains(": ") && message.lines().count() <= 24, "{message}");
+    assert!(!message.chars().any(|c| c.is_control() && c != '\n'), "{message}");
+}
+
 /// Runs the cases with seeds 0 to `count - 1`; how many `hold` found good. A case that panics is
 /// shown.
 pub fn run(
