@@ -14,6 +14,7 @@
 //! ```
 
 use crate::patch::Patch;
+use crate::patch::basis::binomial;
 
 /// How often a square may be halved before the proof is given up.
 const MAX_DEPTH: usize = 8;
@@ -125,10 +126,6 @@ impl Polynomial {
 /// C(d,i) C(e,k) / C(d+e,i+k).
 fn weight(d: usize, i: usize, e: usize, k: usize) -> f64 {
     binomial(d, i) * binomial(e, k) / binomial(d + e, i + k)
-}
-
-fn binomial(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |product, m| product * (n - m) as f64 / (m + 1) as f64)
 }
 
 #[cfg(test)]

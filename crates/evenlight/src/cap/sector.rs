@@ -187,13 +187,13 @@ pub(super) fn product(p: &[f64], q: &[f64]) -> Vec<f64> {
 /// The BB coefficients, of degree D + 1, of (1-u)^2 times the derivative over D m of a piece, on
 /// its BB coefficients.
 fn times_square(piece: usize, space: Space) -> Matrix {
-    use super::spline::choose;
+    use crate::patch::basis::binomial;
     let d = space.degree;
     let [w0, w1] = [piece, piece + 1].map(|k| 1.0 - k as f64 * space.step());
     let square = [w0 * w0, w0 * w1, w1 * w1];
     let mut result = Matrix::zeros(d + 2, d + 1);
     for (q, (k, w)) in (0..d).flat_map(|q| square.into_iter().enumerate().map(move |w| (q, w))) {
-        let weight = w * choose(2, k) * choose(d - 1, q) / choose(d + 1, q + k);
+        let weight = w * binomial(2, k) * binomial(d - 1, q) / binomial(d + 1, q + k);
         result[(q + k, q + 1)] += weight;
         result[(q + k, q)] -= weight;
     }

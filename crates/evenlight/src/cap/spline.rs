@@ -11,7 +11,7 @@
 //! coefficients of the first and of the last piece.
 
 use super::dense::Matrix;
-use crate::patch::basis::bernstein;
+use crate::patch::basis::{bernstein, binomial};
 
 /// A space of splines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +84,7 @@ impl Space {
             for (i, &value) in values.iter().enumerate().take(order - r) {
                 for k in 0..=r {
                     let sign = if (r - k).is_multiple_of(2) { 1.0 } else { -1.0 };
-                    bb[i + k] += sign * choose(r, k) * choose(self.degree, r) * value * factor;
+                    bb[i + k] += sign * binomial(r, k) * binomial(self.degree, r) * value * factor;
                 }
             }
             factor *= self.pieces as f64;
@@ -157,15 +157,10 @@ pub(super) fn raising(from: usize, to: usize) -> Matrix {
     let mut result = Matrix::zeros(to + 1, from + 1);
     for (i, j) in (0..=to).flat_map(|i| (0..=from).map(move |j| (i, j))) {
         if j <= i && i - j <= to - from {
-            result[(i, j)] = choose(from, j) * choose(to - from, i - j) / choose(to, i);
+            result[(i, j)] = binomial(from, j) * binomial(to - from, i - j) / binomial(to, i);
         }
     }
     result
-}
-
-/// The binomial coefficient C(n,k).
-pub(super) fn choose(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
 }
 
 /// The inverse of a regular matrix.

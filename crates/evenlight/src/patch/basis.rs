@@ -86,6 +86,11 @@ pub const QUARTIC_B_SPLINE_TO_BB: [[f64; 5]; 5] = [
     [0.0, 0.0, 0.25, 0.5, 0.25],
 ];
 
+/// The binomial coefficient of `n` over `k`, 0 <= k <= n; exact up to 2^53.
+pub(crate) fn binomial(n: usize, k: usize) -> f64 {
+    (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

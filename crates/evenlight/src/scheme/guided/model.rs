@@ -140,7 +140,7 @@ fn guide_of_cnet(n: usize, weights: GuideWeights) -> Vec<Vec<f64>> {
 }
 
 fn binomial(n: usize, k: usize) -> i128 {
-    super::segment::choose(n, k) as i128
+    crate::patch::basis::binomial(n, k) as i128
 }
 
 /// The characteristic ring of Catmull-Clark subdivision.

@@ -2,6 +2,8 @@
 //!
 //! All functions are linear in the numbers they get; [`matrix`] makes tables of them.
 
+use crate::patch::basis::binomial;
+
 /// A matrix by rows.
 pub(super) type Matrix = Vec<Vec<f64>>;
 
@@ -12,11 +14,6 @@ pub(super) fn matrix(columns: usize, map: impl Fn(&[f64]) -> Vec<f64>) -> Matrix
     (0..images[0].len()).map(|row| images.iter().map(|image| image[row]).collect()).collect()
 }
 
-/// The binomial coefficient C(n,k), exactly.
-pub(super) fn choose(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
-}
-
 /// The Taylor coefficients of orders 0 to 3 or fewer, `count` of them, at t = 0 of the polynomial
 /// with the BB coefficients `b`: C(d,r) times the r-th differences.
 pub(super) fn taylor_at_start(b: &[f64], count: usize) -> Vec<f64> {
@@ -24,15 +21,15 @@ pub(super) fn taylor_at_start(b: &[f64], count: usize) -> Vec<f64> {
     let mut differences = b.to_vec();
     (0..count)
         .map(|r| {
-            let order = choose_or_zero(degree, r) * differences.first().copied().unwrap_or(0.0);
+            let order = binomial_or_zero(degree, r) * differences.first().copied().unwrap_or(0.0);
             differences = differences.windows(2).map(|pair| pair[1] - pair[0]).collect();
             order
         })
         .collect()
 }
 
-fn choose_or_zero(n: usize, k: usize) -> f64 {
-    if k > n { 0.0 } else { choose(n, k) }
+fn binomial_or_zero(n: usize, k: usize) -> f64 {
+    if k > n { 0.0 } else { binomial(n, k) }
 }
 
 /// The same at t = 1.
@@ -50,7 +47,7 @@ fn turned_round(mut taylor: Vec<f64>) -> Vec<f64> {
 /// The first BB coefficients of degree `degree` from as many Taylor coefficients at t = 0:
 /// b_i = sum over r <= i of C(i,r) / C(d,r) t_r.
 pub(super) fn bb_at_start(degree: usize, taylor: &[f64]) -> Vec<f64> {
-    let coef = |i: usize| (0..=i).map(|r| choose(i, r) / choose(degree, r) * taylor[r]).sum();
+    let coef = |i: usize| (0..=i).map(|r| binomial(i, r) / binomial(degree, r) * taylor[r]).sum();
     (0..taylor.len()).map(coef).collect()
 }
 
@@ -275,7 +272,8 @@ mod tests {
             let k = knots.iter().filter(|&&knot| knot < t).count();
             let lines = lines(knots);
             let (t, d) = ((t - lines[k]) / (lines[k + 1] - lines[k]), pieces[k].len() - 1);
-            let basis = |i: usize| choose(d, i) * t.powi(i as i32) * (1.0 - t).powi((d - i) as i32);
+            let basis =
+                |i: usize| binomial(d, i) * t.powi(i as i32) * (1.0 - t).powi((d - i) as i32);
             (0..=d).map(|i| basis(i) * pieces[k][i]).sum::<f64>()
         };
         for (degree, sigma) in [3, 4, 5].into_iter().flat_map(|d| SIGMAS.map(move |s| (d, s))) {
