@@ -9,7 +9,7 @@ use common::Random;
 use evenlight::cap::CapOptions;
 use evenlight::patch::{Answer, FirstJet, Jet};
 use evenlight::point::{norm, sub};
-use evenlight::{Point, QuadId, SchemeKind, Surface, SurfacePoint};
+use evenlight::{Contraction, Point, QuadId, SchemeKind, Surface, SurfaceOptions, SurfacePoint};
 
 const CAGES: [&str; 4] = [
     "obstacle/polycube_corner_m1.obj",
@@ -26,6 +26,11 @@ fn surfaces() -> Vec<Surface> {
         let mut closed = common::surface(&cages[0], scheme);
         closed.set_caps(Some(CapOptions::default())).unwrap();
         surfaces.push(closed);
+    }
+    for scheme in [SchemeKind::Guided3, SchemeKind::Guided5] {
+        let contraction = Contraction::Half;
+        let options = SurfaceOptions { contraction, ..common::options(scheme) };
+        surfaces.push(Surface::build(cages[0].clone(), options).unwrap());
     }
     surfaces
 }
@@ -131,6 +136,27 @@ fn evaluation_agrees_with_the_polynomials() {
                     let gap = norm(sub(found.map(|x| x * step), plain));
                     assert!(gap < 1e-13 * size, "{gap} in {:?}", place.role);
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn grids_are_each_place_alone() {
+    let mut random = Random::new(5);
+    let some: Vec<f64> = (0..5).map(|_| random.unit()).collect();
+    let us = [&[0.0, 0.25, 0.5, 1.0, 0.01, 1e-9, 1.0 - 1e-12, f64::NAN, 7.0], &some[..]].concat();
+    let vs = [&[1.0, 0.125, 1e-310, 0.0, 0.75, -3.0], &some[2..]].concat();
+    for surface in surfaces() {
+        let mut grid = vec![SurfacePoint::NAN; us.len() * vs.len()];
+        for quad in (0..=surface.num_quads() as u32).map(QuadId) {
+            surface.eval_grid(quad, &us, &vs, &mut grid);
+            for (k, found) in grid.iter().enumerate() {
+                let (u, v) = (us[k % us.len()], vs[k / us.len()]);
+                let alone = surface.eval(quad, u, v).unwrap_or(SurfacePoint::NAN);
+                assert_eq!(bits(&found.jet.rows()), bits(&alone.jet.rows()), "{quad:?} {u} {v}");
+                let rest = |p: &SurfacePoint| bits(&[p.normal, [p.gauss, p.mean, 0.0]]);
+                assert_eq!(rest(found), rest(&alone), "{quad:?} {u} {v}");
             }
         }
     }

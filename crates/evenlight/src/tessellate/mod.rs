@@ -25,16 +25,17 @@
 
 mod corners;
 mod nodes;
+mod samples;
 
 pub use corners::CornerValues;
 
 use std::collections::BTreeMap;
 
-use crate::parallel::map_indexed;
 use crate::patch::SurfacePoint;
 use crate::point::{Point, Vector, add, dot, sub, unit};
 use crate::surface::{QuadId, Surface};
 use nodes::{Grid, Nodes};
+use samples::samples;
 
 /// Triangles on the limit surface, with what the surface says at their vertices.
 ///
@@ -169,8 +170,7 @@ fn eval(surface: &Surface, quad: QuadId, [u, v]: [f64; 2]) -> SurfacePoint {
 }
 
 impl TriangleMesh {
-    /// Computes all vertices, a slice at a time: what the surface answers is twice as large as
-    /// what is kept of it.
+    /// Computes all vertices, a slice at a time.
     fn evaluate(&mut self, surface: &Surface) {
         const SLICE: usize = 1 << 16;
         self.positions.reserve_exact(self.origins.len());
@@ -178,11 +178,12 @@ impl TriangleMesh {
         self.gauss.reserve_exact(self.origins.len());
         self.mean.reserve_exact(self.origins.len());
         for slice in self.origins.chunks(SLICE) {
-            let points = map_indexed(slice.len(), |k| eval(surface, slice[k].quad, slice[k].uv));
-            self.positions.extend(points.iter().map(|p| p.jet.p));
-            self.normals.extend(points.iter().map(|p| p.normal));
-            self.gauss.extend(points.iter().map(|p| p.gauss));
-            self.mean.extend(points.iter().map(|p| p.mean));
+            for points in samples(surface, slice) {
+                self.positions.extend(points.iter().map(|p| p.position));
+                self.normals.extend(points.iter().map(|p| p.normal));
+                self.gauss.extend(points.iter().map(|p| p.gauss));
+                self.mean.extend(points.iter().map(|p| p.mean));
+            }
         }
     }
 
