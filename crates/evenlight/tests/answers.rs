@@ -9,7 +9,7 @@ use common::Random;
 use evenlight::cap::CapOptions;
 use evenlight::patch::{Answer, FirstJet, Jet};
 use evenlight::point::{norm, sub};
-use evenlight::{Contraction, Point, QuadId, SchemeKind, Surface, SurfaceOptions, SurfacePoint};
+use evenlight::{Point, QuadId, SchemeKind, Surface, SurfacePoint};
 
 const CAGES: [&str; 4] = [
     "obstacle/polycube_corner_m1.obj",
@@ -27,9 +27,10 @@ fn surfaces() -> Vec<Surface> {
         closed.set_caps(Some(CapOptions::default())).unwrap();
         surfaces.push(closed);
     }
+    #[cfg(feature = "derive")]
     for scheme in [SchemeKind::Guided3, SchemeKind::Guided5] {
-        let contraction = Contraction::Half;
-        let options = SurfaceOptions { contraction, ..common::options(scheme) };
+        let contraction = evenlight::Contraction::Half;
+        let options = evenlight::SurfaceOptions { contraction, ..common::options(scheme) };
         surfaces.push(Surface::build(cages[0].clone(), options).unwrap());
     }
     surfaces
