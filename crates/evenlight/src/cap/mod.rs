@@ -21,7 +21,6 @@
 //! If the patches of a ring are split themselves, a cap is split in the smallest multiple of that.
 
 mod border;
-mod dense;
 mod guide;
 mod plane;
 mod rules;
@@ -29,7 +28,9 @@ mod sector;
 mod spline;
 
 use crate::angle::{cosine, sine};
-use crate::patch::{Patch, SurfacePoint};
+use crate::dense;
+use crate::patch::kernel::patch_jet;
+use crate::patch::{Answer, Patch, SurfacePoint};
 use crate::point::{Vector, add_scaled, scale};
 use crate::rings::{Rings, ValenceRules};
 use crate::scheme::{Rules, SchemeKind, guide_monomials};
@@ -248,18 +249,35 @@ impl Cap {
     /// # Panics
     ///
     /// If `s` is not below the valence.
-    pub fn eval(&self, rings: &Rings, s: usize, [a, b]: [f64; 2]) -> SurfacePoint {
+    pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> SurfacePoint {
+        self.eval_as(rings, s, at)
+    }
+
+    /// [`Cap::eval`] of what is wanted alone.
+    pub(crate) fn eval_as<A: Answer>(&self, rings: &Rings, s: usize, [a, b]: [f64; 2]) -> A {
         let m = self.space.pieces;
         let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
-        self.eval_on(rings, s, part(a) * m + part(b), [a, b])
+        self.eval_in_patch(rings, s, part(a) * m + part(b), [a, b])
     }
 
     /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it.
-    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
+    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, at: [f64; 2]) -> SurfacePoint {
+        self.eval_in_patch(rings, s, which, at)
+    }
+
+    fn eval_in_patch<A: Answer>(
+        &self,
+        rings: &Rings,
+        s: usize,
+        which: usize,
+        [a, b]: [f64; 2],
+    ) -> A {
         let [[a0, _], [b0, _]] = self.patch_domain(which);
         let m = self.space.pieces as f64;
-        let patch = &self.patches[s * self.patches_per_sector() + which];
-        rings.in_world(self.rings, [1.0 / m; 2], &patch.jet((a - a0) * m, (b - b0) * m))
+        let coefs = self.patches[s * self.patches_per_sector() + which].coefs();
+        let at = [(a - a0) * m, (b - b0) * m];
+        let jet = patch_jet(A::ORDER, self.space.degree, coefs, at);
+        rings.in_world(self.rings, [1.0 / m; 2], &jet)
     }
 }
 
