@@ -21,7 +21,6 @@
 //! If the patches of a ring are split themselves, a cap is split in the smallest multiple of that.
 
 mod border;
-mod dense;
 mod guide;
 mod plane;
 mod rules;
@@ -29,6 +28,7 @@ mod sector;
 mod spline;
 
 use crate::angle::{cosine, sine};
+use crate::dense;
 use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Patch, SurfacePoint};
 use crate::point::{Vector, add_scaled, scale};
