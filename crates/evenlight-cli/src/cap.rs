@@ -12,7 +12,8 @@ use crate::options::SurfaceArgs;
 #[derive(Args, Clone, Copy, Debug)]
 pub struct CapArg {
     /// Close the hole behind the last of the --rings around every extraordinary point by
-    /// finitely many patches, so that the surface has no end of rings
+    /// finitely many patches, so that the surface has no end of rings; on boundaries, creases and
+    /// corners one bi-4 patch per sector (bi-3 with bi3)
     #[arg(long, value_enum, default_value_t = CapChoice::None)]
     pub cap: CapChoice,
 }
@@ -79,11 +80,7 @@ impl CapRingsArg {
 }
 
 /// Closes a surface by caps of some kind behind `rings` rings.
-pub fn close(
-    surface: &mut Surface,
-    kind: Option<CapKind>,
-    rings: usize,
-) -> Result<(), Failure> {
+pub fn close(surface: &mut Surface, kind: Option<CapKind>, rings: usize) -> Result<(), Failure> {
     let options = kind.map(|kind| CapOptions { rings, kind });
     surface.set_caps(options).map_err(|error| Failure::Usage(format!("--cap: {error}")))
 }

@@ -131,8 +131,8 @@ fn sectors_have_common_tangent_planes() {
     for_all(CapKind::Auto, |name, point, rings, cap| {
         for [behind, ahead] in lines(point) {
             for u in steps(16) {
-                let [a, b] = [(behind, [0.0, u]), (ahead, [u, 0.0])]
-                    .map(|(s, at)| cap.eval(rings, s, at));
+                let [a, b] =
+                    [(behind, [0.0, u]), (ahead, [u, 0.0])].map(|(s, at)| cap.eval(rings, s, at));
                 assert!(norm(sub(a.jet.p, b.jet.p)) < 1e-15, "{name}");
                 let is_sharp = point.fan.has_dart && ahead == 0;
                 if has_plane(point) && !(is_sharp && u > 0.0) {
@@ -179,7 +179,10 @@ fn flat_caps_are_regular() {
                     let what = format!("{name}, {:?}, {rings} rings: at {a}, {b}", point.fan);
                     // A single face between the ends of a straight crease is folded open.
                     let is_tip = point.fan.rule == VertexRule::Crease && point.fan.faces == 1;
-                    assert!(area > 1e-3 * size * size || (is_tip && area > -1e-12), "{what}: {area:e}");
+                    assert!(
+                        area > 1e-3 * size * size || (is_tip && area > -1e-12),
+                        "{what}: {area:e}"
+                    );
                 }
             }
         }

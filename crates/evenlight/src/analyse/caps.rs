@@ -162,9 +162,8 @@ impl Around<'_> {
 
     fn lines(self) -> Defect {
         let lines = Lines::of(self.rings.rules());
-        let at = |s: usize, u: f64| {
-            jump(&self.eval(s, u, 0.0), &self.eval(lines.behind(s), 0.0, u))
-        };
+        let at =
+            |s: usize, u: f64| jump(&self.eval(s, u, 0.0), &self.eval(lines.behind(s), 0.0, u));
         let smooth = lines.smooth().flat_map(|s| self.along().map(move |u| at(s, u)));
         let dart = lines.dart().into_iter().flat_map(|s| {
             self.along().map(move |u| Defect { position: at(s, u).position, ..Defect::default() })

@@ -246,7 +246,12 @@ impl Cap {
         let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
         let found = self.eval_on(rings, s, part(a) * m + part(b), [a, b]);
         if a.max(b) == 0.0 && rings.normal()[0].is_nan() {
-            return SurfacePoint { normal: [f64::NAN; 3], gauss: f64::NAN, mean: f64::NAN, ..found };
+            return SurfacePoint {
+                normal: [f64::NAN; 3],
+                gauss: f64::NAN,
+                mean: f64::NAN,
+                ..found
+            };
         }
         found
     }
@@ -280,4 +285,3 @@ impl ValenceCap {
 fn domains(rules: &Rules) -> Vec<[[f64; 2]; 2]> {
     (0..rules.patches_per_sector()).map(|which| rules.patch_domain(which)).collect()
 }
-

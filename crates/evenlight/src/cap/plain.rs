@@ -285,7 +285,10 @@ impl Lines {
         missing.iter().for_each(|&(line, sum)| moves[line] = sub(sum, moves[line - 1]));
         let mut alternating = [0.0; 3];
         let share = -1.0 / self.sectors as f64;
-        moves.iter().enumerate().for_each(|(s, &t)| add_scaled(&mut alternating, share * sign(s), t));
+        moves
+            .iter()
+            .enumerate()
+            .for_each(|(s, &t)| add_scaled(&mut alternating, share * sign(s), t));
         moves.iter_mut().enumerate().for_each(|(s, t)| add_scaled(t, sign(s), alternating));
         moves
     }
