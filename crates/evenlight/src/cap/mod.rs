@@ -26,7 +26,6 @@
 //! lines if the point has a tangent plane (module `plain`).
 
 mod border;
-mod dense;
 mod guide;
 mod plain;
 mod plane;
@@ -35,7 +34,9 @@ mod rules;
 mod sector;
 mod spline;
 
-use crate::patch::{Patch, SurfacePoint};
+use crate::dense;
+use crate::patch::kernel::patch_jet;
+use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::rings::{Rings, ValenceRules};
 use crate::scheme::{Rules, SchemeKind};
 pub(crate) use plain::Lines;
@@ -241,27 +242,41 @@ impl Cap {
     /// # Panics
     ///
     /// If `s` is not below the valence.
-    pub fn eval(&self, rings: &Rings, s: usize, [a, b]: [f64; 2]) -> SurfacePoint {
+    pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> SurfacePoint {
+        self.eval_as(rings, s, at)
+    }
+
+    /// [`Cap::eval`] of what is wanted alone.
+    pub(crate) fn eval_as<A: Answer>(&self, rings: &Rings, s: usize, [a, b]: [f64; 2]) -> A {
         let m = self.space.pieces;
         let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
-        let found = self.eval_on(rings, s, part(a) * m + part(b), [a, b]);
+        let which = part(a) * m + part(b);
         if a.max(b) == 0.0 && rings.normal()[0].is_nan() {
-            return SurfacePoint {
-                normal: [f64::NAN; 3],
-                gauss: f64::NAN,
-                mean: f64::NAN,
-                ..found
-            };
+            let jet: Jet = self.eval_in_patch(rings, s, which, [a, b]);
+            let (normal, none) = ([f64::NAN; 3], f64::NAN);
+            return A::from_parts(jet, |_| Shape { normal, gauss: none, mean: none });
         }
-        found
+        self.eval_in_patch(rings, s, which, [a, b])
     }
 
     /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it.
-    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
+    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, at: [f64; 2]) -> SurfacePoint {
+        self.eval_in_patch(rings, s, which, at)
+    }
+
+    fn eval_in_patch<A: Answer>(
+        &self,
+        rings: &Rings,
+        s: usize,
+        which: usize,
+        [a, b]: [f64; 2],
+    ) -> A {
         let [[a0, _], [b0, _]] = self.patch_domain(which);
         let m = self.space.pieces as f64;
-        let patch = &self.patches[s * self.patches_per_sector() + which];
-        rings.in_world(self.rings, [1.0 / m; 2], &patch.jet((a - a0) * m, (b - b0) * m))
+        let coefs = self.patches[s * self.patches_per_sector() + which].coefs();
+        let at = [(a - a0) * m, (b - b0) * m];
+        let jet = patch_jet(A::ORDER, self.space.degree, coefs, at);
+        rings.in_world(self.rings, [1.0 / m; 2], &jet)
     }
 }
 

@@ -108,6 +108,17 @@ struct Side {
     size: f64,
 }
 
+/// A place in a patch of the outermost ring.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PatchParameters {
+    /// The number of the patch in its sector.
+    pub(crate) which: usize,
+    /// The patch's own parameters.
+    pub(crate) at: [f64; 2],
+    /// The size of the patch in a and b.
+    pub(crate) size: [f64; 2],
+}
+
 /// How a patch is made of the net and its refinement.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PatchRule {
@@ -241,25 +252,45 @@ impl Rules {
     }
 
     /// The patch of the outermost ring that has (a,b), sigma < max(a,b) <= 1 up to rounding.
-    pub(crate) fn patch_at(&self, [a, b]: [f64; 2]) -> usize {
-        let sigma = self.sigma();
-        let square = match (a > sigma, b > sigma) {
-            (true, true) => 0,
-            (true, false) => 1,
-            _ => 2,
+    pub(crate) fn patch_at(&self, at: [f64; 2]) -> usize {
+        self.locate(at).which
+    }
+
+    /// The place of (a,b) in the outermost ring, sigma < max(a,b) <= 1 up to rounding.
+    #[inline]
+    pub(crate) fn locate(&self, [a, b]: [f64; 2]) -> PatchParameters {
+        if let Some(cuts) = self.cuts() {
+            return self.locate_between(cuts, [a, b]);
+        }
+        let square = square_of([a, b], 0.5);
+        let m = self.split as f64;
+        // From 0 to m across the square; on a line between patches it is the one before.
+        let across = |x: f64, k: usize| (x - SQUARES[square][k]) * (2.0 * m);
+        let part = |x: f64| {
+            let below = x as usize;
+            let on_line = below > 0 && below as f64 == x;
+            (below - usize::from(on_line)).min(self.split - 1)
         };
-        let part = |x: f64, k: usize| match self.cuts() {
-            None => {
-                let inside = (x - SQUARES[square][k]) * 2.0 * self.split as f64;
-                (inside.ceil() as usize).saturating_sub(1)
-            }
-            Some(Cuts { lines, .. }) => {
-                let first = self.first_line(square, k);
-                let inner = &lines[first + 1..first + self.split];
-                inner.iter().filter(|&&line| x > line).count()
-            }
-        };
-        square * self.split * self.split + part(a, 0) * self.split + part(b, 1)
+        let (x, y) = (across(a, 0), across(b, 1));
+        let (i, j) = (part(x), part(y));
+        PatchParameters {
+            which: (square * self.split + i) * self.split + j,
+            at: [x - i as f64, y - j as f64],
+            size: [0.5 / m; 2],
+        }
+    }
+
+    /// [`Rules::locate`] where rings are not cut in halves.
+    fn locate_between(&self, cuts: &Cuts, at: [f64; 2]) -> PatchParameters {
+        let square = square_of(at, cuts.sigma);
+        let part = [0, 1].map(|k| {
+            let first = self.first_line(square, k);
+            let inner = &cuts.lines[first + 1..first + self.split];
+            inner.iter().filter(|&&line| at[k] > line).count()
+        });
+        let which = (square * self.split + part[0]) * self.split + part[1];
+        let (start, size) = self.patch_square(which);
+        PatchParameters { which, at: [0, 1].map(|k| (at[k] - start[k]) / size[k]), size }
     }
 
     /// The BB coefficients of patch `which` of sector `s` in the ring between `old` and
@@ -279,6 +310,16 @@ impl Rules {
         let rule = &self.patches[own + which];
         let rows = rule.old.iter().zip(&rule.new);
         rows.map(|(a, b)| add(old.apply(a), new.apply(b))).collect()
+    }
+}
+
+/// The square in which (a,b) lies.
+#[inline]
+fn square_of([a, b]: [f64; 2], sigma: f64) -> usize {
+    match (a > sigma, b > sigma) {
+        (true, true) => 0,
+        (true, false) => 1,
+        _ => 2,
     }
 }
 

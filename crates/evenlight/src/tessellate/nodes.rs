@@ -16,8 +16,10 @@
 //! node on an edge, counted from the start of the half-edge with the lower number. The numbers
 //! of the nodes follow the faces: what a face meets first is numbered there.
 
+use std::ops::Range;
+
 use super::TessellateError;
-use crate::mesh::{FaceId, HalfEdgeId, Topology};
+use crate::mesh::{FaceId, HalfEdgeId, Topology, VertexId};
 
 /// No number yet, or a face without surface. The last `u32` is never given to a node.
 const NONE: u32 = u32::MAX;
@@ -128,6 +130,17 @@ impl<'a> Nodes<'a> {
     /// The number of nodes.
     pub fn len(&self) -> usize {
         self.len as usize
+    }
+
+    /// The node at `v`, which must be one of a covered face.
+    pub fn at_vertex(&self, v: VertexId) -> u32 {
+        self.vertex[v.index()]
+    }
+
+    /// The nodes inside the edge of `h`, which must be one of a covered face.
+    pub fn inside(&self, h: HalfEdgeId) -> Range<u32> {
+        let first = self.edge[self.lower_half_edge(h).0.index()];
+        first..first + (self.rate - 1) as u32
     }
 
     /// The grids of all quads with a surface, in the order of the quads.
