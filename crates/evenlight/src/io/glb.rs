@@ -53,8 +53,8 @@ pub fn write_textured(
     let all: Vec<&CornerValues> = channels.uv_sets.iter().chain(&channels.color).collect();
     check_channels(mesh, &all)?;
     let bounds = bounds(mesh)?;
-    let split = mesh.split(&all);
-    let sections = sections(channels, &split);
+    let vertices = Vertices::of(mesh, &all);
+    let sections = sections(channels, &vertices);
     let bin_len = sections.iter().map(Section::len).sum::<usize>();
     let json = json(&sections, bounds);
     let total = 12 + 8 + json.len() + 8 + bin_len;
@@ -71,9 +71,52 @@ pub fn write_textured(
     out.write_all(json.as_bytes())?;
     out.write_all(&bin_len.to_le_bytes())?;
     out.write_all(b"BIN\0")?;
-    write_shape(mesh, &split, out)?;
-    write_channels(channels, &split, out)?;
-    split.triangles.iter().flatten().try_for_each(|v| out.write_all(&v.to_le_bytes()))
+    write_shape(mesh, &vertices, out)?;
+    write_channels(channels, &vertices, out)?;
+    vertices.triangles().iter().flatten().try_for_each(|v| out.write_all(&v.to_le_bytes()))
+}
+
+/// The vertices of the file.
+enum Vertices<'a> {
+    /// The sides of a mesh without channels: nothing needs to be copied.
+    Sides(&'a TriangleMesh),
+    Split(SplitVertices),
+}
+
+impl<'a> Vertices<'a> {
+    fn of(mesh: &'a TriangleMesh, channels: &[&CornerValues]) -> Self {
+        if channels.is_empty() { Self::Sides(mesh) } else { Self::Split(mesh.split(channels)) }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Sides(mesh) => mesh.normals.len(),
+            Self::Split(split) => split.sides.len(),
+        }
+    }
+
+    fn triangles(&self) -> &[[u32; 3]] {
+        match self {
+            Self::Sides(mesh) => mesh.sides(),
+            Self::Split(split) => &split.triangles,
+        }
+    }
+
+    /// The side of each vertex.
+    fn sides(&self) -> impl Iterator<Item = u32> {
+        (0..self.len()).map(|v| match self {
+            Self::Sides(_) => v as u32,
+            Self::Split(split) => split.sides[v],
+        })
+    }
+
+    /// For each channel the number of the value of each vertex.
+    fn values(&self) -> &[Vec<u32>] {
+        match self {
+            Self::Sides(_) => &[],
+            Self::Split(split) => &split.values,
+        }
+    }
 }
 
 /// A run of bytes with values of one kind, of 4 bytes each.
@@ -94,14 +137,14 @@ impl Section {
 }
 
 /// What is behind each other in the binary part.
-fn sections(channels: &CornerChannels, split: &SplitVertices) -> Vec<Section> {
+fn sections(channels: &CornerChannels, vertices: &Vertices) -> Vec<Section> {
     let shape = [("POSITION", 3), ("NORMAL", 3), ("_GAUSS_CURVATURE", 1), ("_MEAN_CURVATURE", 1)];
     let shape = shape.into_iter().map(|(name, width)| (name.to_owned(), width));
     let uvs = (0..channels.uv_sets.len()).map(|k| (format!("TEXCOORD_{k}"), 2));
     let color = channels.color.iter().map(|color| ("COLOR_0".to_owned(), color_width(color)));
     let attributes = shape.chain(uvs).chain(color);
-    let section = |(name, width)| Section { name, width, count: split.sides.len() };
-    let corners = Section { name: String::new(), width: 1, count: 3 * split.triangles.len() };
+    let section = |(name, width)| Section { name, width, count: vertices.len() };
+    let corners = Section { name: String::new(), width: 1, count: 3 * vertices.triangles().len() };
     attributes.map(section).chain([corners]).collect()
 }
 
@@ -184,18 +227,18 @@ fn bounds(mesh: &TriangleMesh) -> io::Result<[[f32; 3]; 2]> {
     Ok(bounds)
 }
 
-fn write_shape(mesh: &TriangleMesh, split: &SplitVertices, out: &mut impl Write) -> io::Result<()> {
+fn write_shape(mesh: &TriangleMesh, vertices: &Vertices, out: &mut impl Write) -> io::Result<()> {
     let mut float = |x: f64| out.write_all(&(x as f32).to_le_bytes());
-    for &side in &split.sides {
+    for side in vertices.sides() {
         let position = mesh.positions[mesh.vertex_of_side(side) as usize];
         position.iter().try_for_each(|&x| float(x))?;
     }
-    for &side in &split.sides {
+    for side in vertices.sides() {
         let normal = existing_normal(mesh.normals[side as usize]);
         normal.iter().try_for_each(|&x| float(x))?;
     }
     for curvature in [&mesh.gauss, &mesh.mean] {
-        split.sides.iter().try_for_each(|&side| float(existing(curvature[side as usize])))?;
+        vertices.sides().try_for_each(|side| float(existing(curvature[side as usize])))?;
     }
     Ok(())
 }
@@ -204,11 +247,11 @@ fn write_shape(mesh: &TriangleMesh, split: &SplitVertices, out: &mut impl Write)
 /// split.
 fn write_channels(
     channels: &CornerChannels,
-    split: &SplitVertices,
+    vertices: &Vertices,
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut float = |x: f64| out.write_all(&(existing(x) as f32).to_le_bytes());
-    let mut numbers = split.values.iter();
+    let mut numbers = vertices.values().iter();
     for (uvs, numbers) in channels.uv_sets.iter().zip(&mut numbers) {
         for &number in numbers {
             let [u, v, ..] = uvs.values[number as usize];
