@@ -70,9 +70,9 @@ impl ValenceRules {
         Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
     }
 
-    /// Whether they are of a fan between sharp edges, which has no turns.
-    pub(crate) fn is_fan(&self) -> bool {
-        self.fan.is_some()
+    /// Of a fan between sharp edges, which has no turns, its limit.
+    pub(crate) fn fan_limit(&self) -> Option<&FanLimit> {
+        self.fan.as_ref()
     }
 
     pub(crate) fn kind(&self) -> SchemeKind {

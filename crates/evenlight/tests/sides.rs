@@ -81,6 +81,23 @@ fn smooth_cages_have_one_side_per_vertex() {
     }
 }
 
+/// Boundaries, holes, corners and semi-sharp edges fold nothing; and there is no side that no triangle
+/// has.
+#[test]
+fn there_are_no_more_sides_than_infinitely_sharp_edges_make() {
+    let mut num_folded = 0;
+    for (name, surface) in features() {
+        let creases = &surface.cage().tags().creases;
+        let has_infinite = creases.iter().any(|crease| crease.sharpness >= INFINITELY_SHARP);
+        let mesh = tessellate(&surface, 2).unwrap();
+        assert!(has_infinite || !mesh.is_folded(), "{name}");
+        num_folded += usize::from(mesh.is_folded());
+        let used: HashSet<u32> = corners(&mesh).map(|(_, _, side)| side).collect();
+        assert_eq!(used.len(), mesh.normals.len(), "{name}");
+    }
+    assert!(num_folded > 5);
+}
+
 /// Vertices stay where they are; normals and curvatures are those of the triangle's own quad.
 #[test]
 fn every_corner_has_the_normal_of_its_own_quad() {
@@ -349,6 +366,33 @@ fn colours_are_cut_to_what_the_format_demands() {
     let found = read_glb(&glb_bytes(&mesh, &channels));
     assert!(found.colors.contains(&[0.0, 1.0, 0.0]));
     assert!(found.colors.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
+}
+
+/// Colours of four numbers have an opacity, where a format has one.
+#[test]
+fn opacity_is_kept_or_missed() {
+    let mut cage = painted_cube();
+    let color = cage.primvars.iter_mut().find(|p| p.name == "displayColor").unwrap();
+    color.values = color.values.chunks(3).flat_map(|rgb| [rgb[0], rgb[1], rgb[2], 0.25]).collect();
+    color.width = 4;
+    let surface = surface(cage);
+    let mesh = tessellate(&surface, 2).unwrap();
+    let channels = mesh.corner_channels(&surface);
+    let bytes = glb_bytes(&mesh, &channels);
+    let gltf = gltf::Gltf::from_slice(&bytes).unwrap();
+    let primitive = gltf.meshes().next().unwrap().primitives().next().unwrap();
+    let reader = primitive.reader(|_| gltf.blob.as_deref());
+    let gltf::mesh::util::ReadColors::RgbaF32(colors) = reader.read_colors(0).unwrap() else {
+        panic!("four floats")
+    };
+    assert!(colors.into_iter().all(|color| (color[3] - 0.25).abs() < 1e-6));
+    let mut bytes = Vec::new();
+    ply_out::write_textured(&mesh, &channels, &mut bytes).unwrap();
+    let read = ply::read(&bytes).unwrap().mesh;
+    let color = read.primvars.iter().find(|p| p.name == "color").unwrap();
+    assert!(color.width == 4 && color.values.iter().skip(3).step_by(4).all(|&a| a == 64.0 / 255.0));
+    let omitted = obj_out::omitted(&mesh, &channels);
+    assert_eq!(omitted[1], "OBJ has no opacity: that of the channel `displayColor` is left out");
 }
 
 #[test]

@@ -13,8 +13,9 @@
 //! and each face the list `vertex_indices` of three `int` with a `uchar` count, and if there are
 //! texture coordinates the list `texcoord` of six `float`: u and v of its three corners. These are
 //! the names and types that MeshLab and ParaView look for; both read `double` positions beside
-//! `float` normals. PLY has no standard name for curvature: general readers hand it on under
-//! the names above, Blender takes it as attributes, MeshLab and ParaView leave it out.
+//! `float` normals (Blender leaves `texcoord` out). PLY has no standard name for curvature: general
+//! readers hand it on under the names above, Blender takes it as attributes, MeshLab and ParaView
+//! leave it out.
 //!
 //! A vertex has one normal. Along infinitely sharp edges, where the surface has several, vertices
 //! are not split, so that the mesh stays watertight: they have the normal and the curvature of one

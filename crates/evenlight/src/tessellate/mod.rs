@@ -9,8 +9,8 @@
 //!  | \ | / | / |     are vertices of the neighbour as well
 //!  o---o---o---o
 //!  | / | / | / |     a cell is cut along its shorter diagonal; where both are equal, along
-//!  o---o---o---o     the one that points to the middle of the quad
-//!  | / | / | \ |
+//!  o---o---o---o     the one that points to the middle of the quad; from a vertex with two
+//!  | / | / | \ |     faces always
 //!  a---o---o---b
 //! ```
 //!
@@ -257,7 +257,9 @@ impl TriangleMesh {
             for (i, j) in grid.cells() {
                 let corners = cell_corners(i, j).map(|(i, j)| nodes.node(grid, i, j));
                 let points = corners.map(|v| self.positions[v as usize]);
-                let diagonal = Diagonal::choose(points, i, j, grid.segments);
+                let pinned = cell_corners(i, j).map(|(i, j)| nodes.has_two_faces(grid, i, j));
+                let diagonal = Diagonal::from_pinned(pinned)
+                    .unwrap_or_else(|| Diagonal::choose(points, i, j, grid.segments));
                 self.triangles.extend(diagonal.cut(corners));
                 if self.is_folded() {
                     self.corner_sides.extend(diagonal.cut(corners.map(|v| sides.side(v))));
@@ -380,6 +382,16 @@ impl Diagonal {
             Self::Falling
         } else {
             Self::Rising
+        }
+    }
+
+    /// The diagonal from a corner around which there are just two faces. The other diagonal would
+    /// join the edges that the two have in common, on both sides, and be an edge of four triangles.
+    fn from_pinned([a, b, c, d]: [bool; 4]) -> Option<Self> {
+        match (a || c, b || d) {
+            (true, false) => Some(Self::Rising),
+            (false, true) => Some(Self::Falling),
+            _ => None,
         }
     }
 

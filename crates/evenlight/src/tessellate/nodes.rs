@@ -153,6 +153,20 @@ impl<'a> Nodes<'a> {
         })
     }
 
+    /// Whether node (`i`, `j`) of `grid` is a vertex around which there are just two faces, which
+    /// then share two edges in a row.
+    pub fn has_two_faces(&self, grid: Grid, i: usize, j: usize) -> bool {
+        let m = grid.segments;
+        let corners = [(0, 0), (m, 0), (m, m), (0, m)];
+        let corner = match corners.iter().position(|&at| at == (i, j)) {
+            Some(k) if grid.num_corners == 4 => k,
+            Some(0) => grid.corner,
+            _ => return false,
+        };
+        let v = self.topology.origin(self.topology.half_edge(grid.face, corner));
+        self.topology.num_sectors(v) == 2 && !self.topology.is_boundary(v)
+    }
+
     /// The number of node (`i`, `j`) of `grid`: the only place where numbers are worked out.
     pub fn node(&self, grid: Grid, i: usize, j: usize) -> u32 {
         if grid.num_corners == 4 {
