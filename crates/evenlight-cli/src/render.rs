@@ -190,7 +190,7 @@ fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
         let options = args.surface.boundary.applied_to(options);
         let mut surface = input::build(Arc::clone(&cage), options, source)?;
         edits.apply(&mut surface)?;
-        cap::close(&mut surface, kind, args.caps.rings.into(), source)?;
+        cap::close(&mut surface, kind, args.caps.rings.into())?;
         Ok(surface)
     };
     let surfaces = schemes.iter().map(build).collect::<Result<Vec<_>, _>>()?;

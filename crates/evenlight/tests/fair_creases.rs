@@ -6,6 +6,7 @@ mod common;
 
 use common::Random;
 use evenlight::analyse::continuity::continuity;
+use evenlight::cap::{CapError, CapOptions};
 use evenlight::mesh::{Crease, VertexRule};
 use evenlight::point::{norm, sub};
 use evenlight::surface::{CreaseRings, PatchPlace, PointRule, Reason};
@@ -278,4 +279,12 @@ fn every_scheme_has_them() {
     };
     let first = rings(SchemeKind::CatmullClark);
     assert!(SchemeKind::ALL.into_iter().all(|scheme| rings(scheme) == first));
+}
+
+/// There are no caps behind them: it is said, and the surface stays without.
+#[test]
+fn caps_are_refused() {
+    let mut surface = build(&creased(4, 3, 9), CreaseRings::Fair);
+    assert_eq!(surface.set_caps(Some(CapOptions::default())), Err(CapError::FairCrease));
+    assert_eq!(surface.cap_options(), None);
 }

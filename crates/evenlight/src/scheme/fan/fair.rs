@@ -90,6 +90,7 @@ impl FairFan {
         let subdominant = Subdominant::with_plane(0.5, [column(0), column(1)], left);
         let coarse = CoarseNet::new(shape);
         let limit = FanLimit {
+            shape,
             lambda: 0.5,
             point: coarse.limit.clone().into_iter().collect(),
             tangents: Tangents::OfRules,
