@@ -63,7 +63,7 @@ pub struct BoundaryArg {
 pub enum Creases {
     /// Catmull-Clark's, as in OpenSubdiv: no tangent plane from four faces between sharp edges on
     Cc,
-    /// Least energy: tangent plane and bounded curvature, for up to 16 faces
+    /// Least energy: tangent plane and bounded curvature, for up to 12 faces
     Fair,
 }
 

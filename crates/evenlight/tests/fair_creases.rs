@@ -266,6 +266,33 @@ fn the_rings_are_those_of_the_prototype() {
     }
 }
 
+/// Boundaries and creases of any valence, n-gons, semi-sharp edges and seams around: all joins.
+#[test]
+fn whole_cages_join() {
+    let features = [
+        "boundary_concave",
+        "boundary_creased",
+        "boundary_edge_only",
+        "boundary_valences",
+        "crease_turning",
+        "cube_creased",
+        "polygons_boundary",
+        "star5_crease",
+        "uv_concave",
+    ];
+    for name in features {
+        let mesh = common::mesh(&format!("features/{name}.obj"));
+        let surface = build(&mesh, CreaseRings::Fair);
+        assert!(!fair_points(&surface).is_empty(), "{name}");
+        let found = continuity(&surface, 3, 2);
+        assert!(found.all.parametric < 1e-10, "{name}: {:e}", found.all.parametric);
+        assert!(found.creases.position < 1e-13, "{name}: {:e}", found.creases.position);
+        for point in fair_points(&surface) {
+            assert!(surface.extraordinary_points()[point].normal[0].is_finite(), "{name}");
+        }
+    }
+}
+
 /// They are the same with every scheme.
 #[test]
 fn every_scheme_has_them() {
