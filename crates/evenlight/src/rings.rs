@@ -29,6 +29,10 @@
 //! as exact as ring 1. The one thing to guard is that rounding must not bring the part that
 //! shrinks by lambda back into Z: it is removed in every step.
 
+mod grid;
+
+pub(crate) use grid::for_each_pair;
+
 use std::sync::{Arc, OnceLock};
 
 use crate::mesh::Fan;
@@ -341,20 +345,31 @@ impl Rings {
     #[inline]
     fn eval_in_patch<A: Answer>(&self, ring: usize, s: usize, place: PatchParameters) -> A {
         let PatchParameters { which, at, size } = place;
-        let degree = self.rules.rules.degree;
+        self.with_coefs(ring, s, which, |scale, coefs| {
+            let jet = patch_jet(A::ORDER, self.rules.rules.degree, coefs, at);
+            self.placed(scale, size, &jet)
+        })
+    }
+
+    /// Calls `f` with the BB coefficients of a patch.
+    #[inline]
+    fn with_coefs<T>(
+        &self,
+        ring: usize,
+        s: usize,
+        which: usize,
+        f: impl FnOnce(&RingScale, &[Vector]) -> T,
+    ) -> T {
+        let rules = &self.rules.rules;
         if ring >= CACHED_RINGS {
-            let jet = |net: &[Vector], r: &Ring| {
-                let coefs = self.rules.rules.patch(s, which, net, &r.refined);
-                self.placed(&r.scale, size, &patch_jet(A::ORDER, degree, &coefs, at))
-            };
-            return self.with_ring(ring, jet);
+            return self
+                .with_ring(ring, |net, r| f(&r.scale, &rules.patch(s, which, net, &r.refined)));
         }
         let r = self.cached_ring(ring);
         let coefs = r.coefs.get_or_init(|| self.coefs(self.net_in_front(ring), r));
-        let per_patch = (degree + 1) * (degree + 1);
+        let per_patch = (rules.degree + 1) * (rules.degree + 1);
         let first = (self.patches_per_sector() * s + which) * per_patch;
-        let jet = patch_jet(A::ORDER, degree, &coefs[first..first + per_patch], at);
-        self.placed(&r.scale, size, &jet)
+        f(&r.scale, &coefs[first..first + per_patch])
     }
 
     fn at_center<A: Answer>(&self) -> A {

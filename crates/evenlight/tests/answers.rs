@@ -27,6 +27,12 @@ fn surfaces() -> Vec<Surface> {
         closed.set_caps(Some(CapOptions::default())).unwrap();
         surfaces.push(closed);
     }
+    #[cfg(feature = "derive")]
+    for scheme in [SchemeKind::Guided3, SchemeKind::Guided5] {
+        let contraction = evenlight::Contraction::Half;
+        let options = evenlight::SurfaceOptions { contraction, ..common::options(scheme) };
+        surfaces.push(Surface::build(cages[0].clone(), options).unwrap());
+    }
     surfaces
 }
 
@@ -131,6 +137,27 @@ fn evaluation_agrees_with_the_polynomials() {
                     let gap = norm(sub(found.map(|x| x * step), plain));
                     assert!(gap < 1e-13 * size, "{gap} in {:?}", place.role);
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn grids_are_each_place_alone() {
+    let mut random = Random::new(5);
+    let some: Vec<f64> = (0..5).map(|_| random.unit()).collect();
+    let us = [&[0.0, 0.25, 0.5, 1.0, 0.01, 1e-9, 1.0 - 1e-12, f64::NAN, 7.0], &some[..]].concat();
+    let vs = [&[1.0, 0.125, 1e-310, 0.0, 0.75, -3.0], &some[2..]].concat();
+    for surface in surfaces() {
+        let mut grid = vec![SurfacePoint::NAN; us.len() * vs.len()];
+        for quad in (0..=surface.num_quads() as u32).map(QuadId) {
+            surface.eval_grid(quad, &us, &vs, &mut grid);
+            for (k, found) in grid.iter().enumerate() {
+                let (u, v) = (us[k % us.len()], vs[k / us.len()]);
+                let alone = surface.eval(quad, u, v).unwrap_or(SurfacePoint::NAN);
+                assert_eq!(bits(&found.jet.rows()), bits(&alone.jet.rows()), "{quad:?} {u} {v}");
+                let rest = |p: &SurfacePoint| bits(&[p.normal, [p.gauss, p.mean, 0.0]]);
+                assert_eq!(rest(found), rest(&alone), "{quad:?} {u} {v}");
             }
         }
     }

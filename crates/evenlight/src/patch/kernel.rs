@@ -23,19 +23,95 @@ pub(crate) fn tensor_jet<const N: usize>(
     bv: &BasisJet<N>,
     p: &[[Point; N]; N],
 ) -> Jet {
-    let r = sum_of_rows(&bu[0], p);
-    let mut jet = Jet { p: sum(&bv[0], &r), ..Jet::default() };
-    if order >= 1 {
-        jet.dv = sum(&bv[1], &r);
-        let r_u = sum_of_rows(&bu[1], p);
-        jet.du = sum(&bv[0], &r_u);
-        if order >= 2 {
-            jet.dvv = sum(&bv[2], &r);
-            jet.duv = sum(&bv[1], &r_u);
-            jet.duu = sum(&bv[0], &sum_of_rows(&bu[2], p));
+    Rows::new(order, bu, p).jet(order, bv)
+}
+
+/// The sums over the slower index, of all derivatives in u up to the order asked for.
+struct Rows<const N: usize> {
+    r: [Point; N],
+    r_u: [Point; N],
+    r_uu: [Point; N],
+}
+
+impl<const N: usize> Rows<N> {
+    #[inline(always)]
+    fn new(order: usize, bu: &BasisJet<N>, p: &[[Point; N]; N]) -> Self {
+        let none = [[0.0; 3]; N];
+        Self {
+            r: sum_of_rows(&bu[0], p),
+            r_u: if order >= 1 { sum_of_rows(&bu[1], p) } else { none },
+            r_uu: if order >= 2 { sum_of_rows(&bu[2], p) } else { none },
         }
     }
-    jet
+
+    #[inline(always)]
+    fn jet(&self, order: usize, bv: &BasisJet<N>) -> Jet {
+        let mut jet = Jet { p: sum(&bv[0], &self.r), ..Jet::default() };
+        if order >= 1 {
+            jet.dv = sum(&bv[1], &self.r);
+            jet.du = sum(&bv[0], &self.r_u);
+        }
+        if order >= 2 {
+            jet.dvv = sum(&bv[2], &self.r);
+            jet.duv = sum(&bv[1], &self.r_u);
+            jet.duu = sum(&bv[0], &self.r_uu);
+        }
+        jet
+    }
+}
+
+/// A line of a grid in parameters: its number, and the parameter that is constant on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    pub(crate) number: usize,
+    pub(crate) at: f64,
+}
+
+/// [`tensor_jet`] where every line of `us` meets every line of `vs`: `put` gets the numbers of both
+/// and the jet, the same bits as one at a time. What two places of a line have in common is
+/// computed once.
+#[inline(always)]
+pub(crate) fn tensor_grid<const N: usize>(
+    order: usize,
+    basis: impl Fn(f64) -> BasisJet<N>,
+    p: &[[Point; N]; N],
+    [us, vs]: [&[Line]; 2],
+    mut put: impl FnMut(usize, usize, &Jet),
+) {
+    /// So many bases are kept.
+    const KEPT: usize = 16;
+    let mut bases = [[[0.0; N]; 3]; KEPT];
+    for vs in vs.chunks(KEPT) {
+        bases.iter_mut().zip(vs).for_each(|(bv, v)| *bv = basis(v.at));
+        for u in us {
+            let rows = Rows::new(order, &basis(u.at), p);
+            for (v, bv) in vs.iter().zip(&bases) {
+                put(u.number, v.number, &rows.jet(order, bv));
+            }
+        }
+    }
+}
+
+/// [`patch_jet`] on a grid, as [`tensor_grid`].
+#[inline(always)]
+pub(crate) fn patch_grid(
+    order: usize,
+    degree: usize,
+    coefs: &[Point],
+    [us, vs]: [&[Line]; 2],
+    mut put: impl FnMut(usize, usize, &Jet),
+) {
+    match degree {
+        3 => tensor_grid::<4>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        4 => tensor_grid::<5>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        5 => tensor_grid::<6>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        6 => tensor_grid::<7>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        _ => {
+            for (u, v) in us.iter().flat_map(|u| vs.iter().map(move |v| (u, v))) {
+                put(u.number, v.number, &patch_jet(order, degree, coefs, [u.at, v.at]));
+            }
+        }
+    }
 }
 
 /// sum_i w_i p_i of whole rows.

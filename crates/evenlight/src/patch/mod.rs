@@ -22,6 +22,7 @@ mod jet;
 pub(crate) mod kernel;
 
 pub use answer::Answer;
+pub(crate) use answer::Parts;
 pub(crate) use jet::Shape;
 pub use jet::{FirstJet, Jet, SurfacePoint};
 

@@ -119,6 +119,15 @@ pub(crate) struct PatchParameters {
     pub(crate) size: [f64; 2],
 }
 
+/// A place along one parameter of a square of a ring: the number of the patch across the square,
+/// the patch's own parameter and its size.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PartParameter {
+    pub(crate) part: usize,
+    pub(crate) at: f64,
+    pub(crate) size: f64,
+}
+
 /// How a patch is made of the net and its refinement.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PatchRule {
@@ -259,38 +268,39 @@ impl Rules {
     /// The place of (a,b) in the outermost ring, sigma < max(a,b) <= 1 up to rounding.
     #[inline]
     pub(crate) fn locate(&self, [a, b]: [f64; 2]) -> PatchParameters {
-        if let Some(cuts) = self.cuts() {
-            return self.locate_between(cuts, [a, b]);
-        }
-        let square = square_of([a, b], 0.5);
-        let m = self.split as f64;
-        // From 0 to m across the square; on a line between patches it is the one before.
-        let across = |x: f64, k: usize| (x - SQUARES[square][k]) * (2.0 * m);
-        let part = |x: f64| {
-            let below = x as usize;
-            let on_line = below > 0 && below as f64 == x;
-            (below - usize::from(on_line)).min(self.split - 1)
-        };
-        let (x, y) = (across(a, 0), across(b, 1));
-        let (i, j) = (part(x), part(y));
+        let square = square_of([a, b], self.sigma());
+        let (a, b) = (self.locate_along(square, 0, a), self.locate_along(square, 1, b));
         PatchParameters {
-            which: (square * self.split + i) * self.split + j,
-            at: [x - i as f64, y - j as f64],
-            size: [0.5 / m; 2],
+            which: self.patch_of([a.part, b.part], square),
+            at: [a.at, b.at],
+            size: [a.size, b.size],
         }
     }
 
-    /// [`Rules::locate`] where rings are not cut in halves.
-    fn locate_between(&self, cuts: &Cuts, at: [f64; 2]) -> PatchParameters {
-        let square = square_of(at, cuts.sigma);
-        let part = [0, 1].map(|k| {
+    /// The number of patch (i, j) of a square, i along a.
+    pub(crate) fn patch_of(&self, [i, j]: [usize; 2], square: usize) -> usize {
+        (square * self.split + i) * self.split + j
+    }
+
+    /// Where a (k = 0) or b (k = 1) is among the patches of a square; on a line between patches it
+    /// is in the one before.
+    #[inline]
+    pub(crate) fn locate_along(&self, square: usize, k: usize, x: f64) -> PartParameter {
+        if let Some(Cuts { lines, .. }) = self.cuts() {
             let first = self.first_line(square, k);
-            let inner = &cuts.lines[first + 1..first + self.split];
-            inner.iter().filter(|&&line| at[k] > line).count()
-        });
-        let which = (square * self.split + part[0]) * self.split + part[1];
-        let (start, size) = self.patch_square(which);
-        PatchParameters { which, at: [0, 1].map(|k| (at[k] - start[k]) / size[k]), size }
+            let inner = &lines[first + 1..first + self.split];
+            let part = inner.iter().filter(|&&line| x > line).count();
+            let (start, end) = (lines[first + part], lines[first + part + 1]);
+            let size = end - start;
+            return PartParameter { part, at: (x - start) / size, size };
+        }
+        // From 0 to the number of patches across the square.
+        let m = self.split as f64;
+        let x = (x - SQUARES[square][k]) * (2.0 * m);
+        let below = x as usize;
+        let on_line = below > 0 && below as f64 == x;
+        let part = (below - usize::from(on_line)).min(self.split - 1);
+        PartParameter { part, at: x - part as f64, size: 0.5 / m }
     }
 
     /// The BB coefficients of patch `which` of sector `s` in the ring between `old` and

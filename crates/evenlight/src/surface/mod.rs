@@ -18,6 +18,7 @@
 mod build;
 mod caps;
 mod eval;
+mod grid;
 mod place;
 mod primvar;
 mod rule;
@@ -379,16 +380,18 @@ impl Surface {
         }
     }
 
+    #[inline]
     fn positions(&self, level: usize) -> &[Point] {
         if level == 0 { self.cage.positions() } else { &self.refined[level - 1] }
     }
 
+    #[inline]
     fn net_points(&self, net: u32) -> [Point; 16] {
         let net = &self.plan.nets[net as usize];
         net.points(self.positions(net.level as usize))
     }
 
-    #[inline]
+    #[inline(always)]
     fn regular_jet(&self, order: usize, net: u32, [u, v]: [f64; 2]) -> Jet {
         let points = self.net_points(net);
         tensor_jet(order, &cubic_b_spline(u), &cubic_b_spline(v), square(&points))

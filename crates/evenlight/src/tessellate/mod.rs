@@ -37,6 +37,7 @@
 
 mod corners;
 mod nodes;
+mod samples;
 mod sides;
 mod split;
 
@@ -45,11 +46,11 @@ pub use split::SplitVertices;
 
 use std::collections::BTreeMap;
 
-use crate::parallel::map_indexed;
 use crate::patch::SurfacePoint;
 use crate::point::{Point, Vector, add, dot, sub, unit};
 use crate::surface::{QuadId, Surface};
 use nodes::{Grid, Nodes};
+use samples::samples;
 use sides::Sides;
 
 /// Triangles on the limit surface, with what the surface says at their vertices.
@@ -199,8 +200,7 @@ fn eval(surface: &Surface, quad: QuadId, [u, v]: [f64; 2]) -> SurfacePoint {
 }
 
 impl TriangleMesh {
-    /// Computes all sides, and vertices on their first, a slice at a time: what the surface answers
-    /// is twice as large as what is kept of it.
+    /// Computes all sides, and vertices on their first, a slice at a time.
     fn evaluate(&mut self, surface: &Surface) {
         const SLICE: usize = 1 << 16;
         let num_vertices = self.origins.len() - self.side_vertices.len();
@@ -209,12 +209,13 @@ impl TriangleMesh {
         self.gauss.reserve_exact(self.origins.len());
         self.mean.reserve_exact(self.origins.len());
         for slice in self.origins.chunks(SLICE) {
-            let points = map_indexed(slice.len(), |k| eval(surface, slice[k].quad, slice[k].uv));
-            let missing = num_vertices - self.positions.len();
-            self.positions.extend(points.iter().map(|p| p.jet.p).take(missing));
-            self.normals.extend(points.iter().map(|p| p.normal));
-            self.gauss.extend(points.iter().map(|p| p.gauss));
-            self.mean.extend(points.iter().map(|p| p.mean));
+            for points in samples(surface, slice) {
+                let missing = num_vertices - self.positions.len();
+                self.positions.extend(points.iter().map(|p| p.position).take(missing));
+                self.normals.extend(points.iter().map(|p| p.normal));
+                self.gauss.extend(points.iter().map(|p| p.gauss));
+                self.mean.extend(points.iter().map(|p| p.mean));
+            }
         }
     }
 
