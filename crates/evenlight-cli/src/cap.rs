@@ -23,7 +23,7 @@ pub struct CapArg {
 pub enum CapChoice {
     /// Rings without end
     None,
-    /// What suits the scheme: bi6 for guided6, bi4 for guided3 and guided4, else bi5
+    /// What suits the scheme: bi6 for guided6, else bi5
     Auto,
     /// Bi-3, 3 x 3 patches per sector (more where the rings are split); tangent planes across lines agree to small angles only
     Bi3,

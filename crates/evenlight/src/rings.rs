@@ -147,12 +147,10 @@ struct Frame {
 /// One ring in frame coordinates, scaled as the module says.
 #[derive(Debug)]
 struct Ring {
-    /// The BB coefficients of all patches, in the order of their numbers, made when the ring is
-    /// first evaluated: they take most of the memory.
-    coefs: OnceLock<Vec<Vector>>,
-    /// The net behind the ring in the scale of the net in front of it.
-    refined: Vec<Vector>,
-    /// The net in front of the next ring: the same in its own scale.
+    /// The BB coefficients of the patches of each sector, made when it is first evaluated: they
+    /// take most of the memory.
+    sectors: Box<[OnceLock<Box<[Vector]>>]>,
+    /// The net in front of the next ring, in its own scale.
     next: Vec<Vector>,
     scale: RingScale,
 }
@@ -175,8 +173,10 @@ impl RingScale {
     /// factor (X, Y, zeta Z) in world coordinates.
     #[inline(always)]
     fn world(&self, factor: f64, r: Vector) -> Vector {
-        let [x, y, z] = self.axes;
-        [0, 1, 2].map(|k| factor * (r[0] * x[k] + r[1] * y[k] + r[2] * z[k]))
+        let along = |k: usize| {
+            factor * (r[0] * self.axes[0][k] + r[1] * self.axes[1][k] + r[2] * self.axes[2][k])
+        };
+        [along(0), along(1), along(2)]
     }
 }
 
@@ -304,7 +304,11 @@ impl Rings {
 
     /// Patch `which` of sector `s` of ring `ring`.
     pub fn patch(&self, ring: usize, s: usize, which: usize) -> Patch {
-        self.with_ring(ring, |net, r| self.to_world(ring, &self.frame_patch(net, r, s, which)))
+        self.with_ring(ring, |net, r| {
+            let mut coefs = self.coefs(net, r, s, which);
+            coefs.iter_mut().for_each(|p| *p = add(self.center, r.scale.world(r.scale.sigma, *p)));
+            Patch::new([self.rules.rules.degree; 2], coefs)
+        })
     }
 
     /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
@@ -374,14 +378,16 @@ impl Rings {
     ) -> T {
         let rules = &self.rules.rules;
         if ring >= CACHED_RINGS {
-            return self
-                .with_ring(ring, |net, r| f(&r.scale, &rules.patch(s, which, net, &r.refined)));
+            return self.with_ring(ring, |net, r| f(&r.scale, &self.coefs(net, r, s, which)));
         }
         let r = self.cached_ring(ring);
-        let coefs = r.coefs.get_or_init(|| self.coefs(self.net_in_front(ring), r));
+        let all = || -> Box<[Vector]> {
+            let net = self.net_in_front(ring);
+            (0..self.patches_per_sector()).flat_map(|k| self.coefs(net, r, s, k)).collect()
+        };
+        let coefs = r.sectors[s].get_or_init(all);
         let per_patch = (rules.degree + 1) * (rules.degree + 1);
-        let first = (self.patches_per_sector() * s + which) * per_patch;
-        f(&r.scale, &coefs[first..first + per_patch])
+        f(&r.scale, &coefs[which * per_patch..][..per_patch])
     }
 
     fn at_center<A: Answer>(&self) -> A {
@@ -438,8 +444,14 @@ impl Rings {
 
     /// Patch `which` of sector `s` of the ring behind `net`.
     fn frame_patch(&self, net: &[Vector], ring: &Ring, s: usize, which: usize) -> Patch {
-        let rules = &self.rules.rules;
-        Patch::new([rules.degree; 2], rules.patch(s, which, net, &ring.refined))
+        Patch::new([self.rules.rules.degree; 2], self.coefs(net, ring, s, which))
+    }
+
+    /// The BB coefficients of patch `which` of sector `s` of the ring behind `net`.
+    fn coefs(&self, net: &[Vector], ring: &Ring, s: usize, which: usize) -> Vec<Vector> {
+        // Both nets in the scale of `net`.
+        let next = (&ring.next[..], self.shrinkage());
+        self.rules.rules.patch_of_scaled(s, which, net, next)
     }
 
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
@@ -513,27 +525,21 @@ impl Rings {
 
     /// The ring behind `net`, and the net behind it.
     fn ring_from(&self, ring: usize, net: &[Vector]) -> Ring {
-        // The patches need both nets in one scale: that of `net`, which `refined` has.
-        let refined = self.rules.rules.refine(net);
-        let (next, scale) = (self.normalised(&refined), self.ring_scale(ring));
-        Ring { coefs: OnceLock::new(), refined, next, scale }
+        let next = self.normalised(&self.rules.rules.refine(net));
+        let sectors = std::iter::repeat_with(OnceLock::new).take(self.valence()).collect();
+        Ring { sectors, next, scale: self.ring_scale(ring) }
     }
 
-    /// The BB coefficients of all patches of the ring behind `net`.
-    fn coefs(&self, net: &[Vector], ring: &Ring) -> Vec<Vector> {
-        let (rules, per_sector) = (&self.rules.rules, self.patches_per_sector());
-        let numbers = 0..per_sector * rules.valence;
-        numbers
-            .flat_map(|k| rules.patch(k / per_sector, k % per_sector, net, &ring.refined))
-            .collect()
+    /// The factors by which the coordinates of a net become smaller from ring to ring.
+    fn shrinkage(&self) -> Vector {
+        let lambda = self.lambda();
+        [lambda, lambda, if self.frame.has_plane { lambda * lambda } else { lambda }]
     }
 
     /// A refined net in its own scale.
     fn normalised(&self, net: &[Vector]) -> Vec<Vector> {
-        let shrink = self.lambda();
-        let height = if self.frame.has_plane { shrink * shrink } else { shrink };
-        let mut net: Vec<Vector> =
-            net.iter().map(|p| [p[0] / shrink, p[1] / shrink, p[2] / height]).collect();
+        let [x, y, z] = self.shrinkage();
+        let mut net: Vec<Vector> = net.iter().map(|p| [p[0] / x, p[1] / y, p[2] / z]).collect();
         if self.frame.has_plane {
             self.rules.subdominant.remove_from_coordinate(2, &mut net);
         }

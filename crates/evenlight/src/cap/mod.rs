@@ -136,7 +136,6 @@ impl CapKind {
     pub fn of_scheme(scheme: SchemeKind) -> Self {
         match scheme {
             SchemeKind::Guided6 => Self::Bi6,
-            SchemeKind::Guided3 | SchemeKind::Guided4 => Self::Bi4,
             _ => Self::Bi5,
         }
     }

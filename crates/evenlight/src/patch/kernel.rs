@@ -13,7 +13,7 @@
 
 use super::Jet;
 use super::basis::{BasisJet, bernstein};
-use crate::point::{Point, Vector};
+use crate::point::{Point, Vector, scale};
 
 /// The jet up to `order` (0, 1 or 2) of sum_ij bu_i bv_j p_ij.
 #[inline(always)]
@@ -129,7 +129,7 @@ pub(crate) fn sum_of_rows<const N: usize>(w: &[f64; N], p: &[[Point; N]; N]) -> 
 /// sum_j w_j r_j.
 #[inline(always)]
 pub(crate) fn sum<const N: usize>(w: &[f64; N], r: &[Point; N]) -> Vector {
-    let mut sum = r[0].map(|x| w[0] * x);
+    let mut sum = scale(w[0], r[0]);
     for j in 1..N {
         for k in 0..3 {
             sum[k] += w[j] * r[j][k];

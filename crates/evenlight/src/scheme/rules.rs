@@ -14,8 +14,8 @@
 //! The maps commute with turning by one sector, so a row is written for sector 0 only.
 
 use crate::angle::sector_cosine;
-use crate::net::{CNET_NODES, CNet, Expansion, NodeRef, turned};
-use crate::point::{add, add_scaled};
+use crate::net::{self, CNET_NODES, CNet, Expansion, NodeRef};
+use crate::point::add_scaled;
 
 /// One row of a linear map: weights of nodes, written for sector 0.
 ///
@@ -185,8 +185,7 @@ impl Rules {
 
     /// The default q of a control net; `None` for schemes without q.
     pub(crate) fn default_quadratic(&self, net: &[[f64; 3]]) -> Option<Expansion> {
-        let turned = Turned { net, by: 0 };
-        self.quadratic.as_ref().map(|part| part.from_net.each_ref().map(|row| turned.apply(row)))
+        self.quadratic.as_ref().map(|part| part.from_net.each_ref().map(|row| weighted(row, net)))
     }
 
     /// The control net with the nodes of q, given in sector 0.
@@ -197,7 +196,7 @@ impl Rules {
         for sector in net.chunks(self.control_nodes_per_sector()) {
             all.extend(sector);
             all.extend(q);
-            q = turned(c, q);
+            q = net::turned(c, q);
         }
         all
     }
@@ -206,8 +205,8 @@ impl Rules {
     pub(crate) fn refine(&self, net: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut refined = Vec::with_capacity(net.len());
         for s in 0..self.turns() {
-            let turned = Turned { net, by: s * self.nodes_per_sector };
-            refined.extend(self.refine.iter().map(|row| turned.apply(row)));
+            let seen = turned(net, s * self.nodes_per_sector);
+            refined.extend(self.refine.iter().map(|row| weighted(row, &seen)));
         }
         refined
     }
@@ -312,14 +311,29 @@ impl Rules {
         old: &[[f64; 3]],
         new: &[[f64; 3]],
     ) -> Vec<[f64; 3]> {
+        self.patch_of_scaled(s, which, old, (new, [1.0; 3]))
+    }
+
+    /// [`Rules::patch`] where A `old` is `new` with its coordinates multiplied by `scale`.
+    pub(crate) fn patch_of_scaled(
+        &self,
+        s: usize,
+        which: usize,
+        old: &[[f64; 3]],
+        (new, scale): (&[[f64; 3]], [f64; 3]),
+    ) -> Vec<[f64; 3]> {
         let (by, own) = match self.turns() {
             1 => (0, s * self.patches_per_sector()),
             _ => (s * self.nodes_per_sector, 0),
         };
-        let (old, new) = (Turned { net: old, by }, Turned { net: new, by });
+        let (old, new) = (turned(old, by), turned(new, by));
         let rule = &self.patches[own + which];
-        let rows = rule.old.iter().zip(&rule.new);
-        rows.map(|(a, b)| add(old.apply(a), new.apply(b))).collect()
+        let coef = |(a, b): (&Row, &Row)| {
+            let (old, new) = (weighted(a, &old), weighted(b, &new));
+            let along = |k: usize| old[k] + scale[k] * new[k];
+            [along(0), along(1), along(2)]
+        };
+        rule.old.iter().zip(&rule.new).map(coef).collect()
     }
 }
 
@@ -333,23 +347,20 @@ fn square_of([a, b]: [f64; 2], sigma: f64) -> usize {
     }
 }
 
-/// A net turned so that some sector becomes sector 0.
-#[derive(Clone, Copy)]
-struct Turned<'a> {
-    net: &'a [[f64; 3]],
-    by: usize,
+/// A net turned so that node `by` becomes node 0.
+fn turned(net: &[[f64; 3]], by: usize) -> Vec<[f64; 3]> {
+    let (behind, ahead) = net.split_at(by);
+    [ahead, behind].concat()
 }
 
-impl Turned<'_> {
-    fn apply(self, row: &Row) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for &(node, w) in row {
-            let at = node + self.by;
-            let at = if at < self.net.len() { at } else { at - self.net.len() };
-            add_scaled(&mut sum, w, self.net[at]);
-        }
-        sum
+/// A row applied to a net whose sector 0 is the row's.
+#[inline]
+fn weighted(row: &Row, net: &[[f64; 3]]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for &(node, w) in row {
+        add_scaled(&mut sum, w, net[node]);
     }
+    sum
 }
 
 /// Collects the weights of a row; weights of one node add up.

@@ -34,9 +34,9 @@ use crate::mesh::isolation::{Piece, Plan};
 use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, VertexId};
 use crate::net::Quadratic;
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
-use crate::patch::kernel::{square, tensor_jet};
+use crate::patch::kernel::{square, sum, sum_of_rows, tensor_jet};
 use crate::patch::{Answer, Jet, Patch, SurfacePoint};
-use crate::point::{Point, Vector, add_scaled};
+use crate::point::{Point, Vector};
 use crate::rings::Rings;
 use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
 use build::{describe, refined_positions, rings, rules_of_points};
@@ -298,11 +298,11 @@ impl Surface {
         match place.source {
             Source::Net(net) => self.regular_patch(net),
             Source::Ring(RingPatch { point, sector, ring, which, corner, .. }) => {
-                turned_patch(corner, &self.rings[point].patch(ring, sector, which))
+                turned_patch(corner, self.rings[point].patch(ring, sector, which))
             }
             Source::Cap(RingPatch { point, sector, which, corner, .. }) => {
                 let cap = self.cap(point).expect("places of caps are those of caps");
-                turned_patch(corner, &cap.patch(&self.rings[point], sector, which))
+                turned_patch(corner, cap.patch(&self.rings[point], sector, which))
             }
         }
     }
@@ -417,14 +417,8 @@ impl Surface {
 
     fn regular_patch(&self, net: u32) -> Patch {
         let points = self.net_points(net);
-        let coef = |k: usize| {
-            let mut sum = [0.0; 3];
-            for (m, &p) in points.iter().enumerate() {
-                let w = CUBIC_B_SPLINE_TO_BB[k / 4][m / 4] * CUBIC_B_SPLINE_TO_BB[k % 4][m % 4];
-                add_scaled(&mut sum, w, p);
-            }
-            sum
-        };
-        Patch::new([3, 3], (0..16).map(coef).collect())
+        let along_u = CUBIC_B_SPLINE_TO_BB.map(|row| sum_of_rows(&row, square(&points)));
+        let along_v = |p: [Point; 4]| CUBIC_B_SPLINE_TO_BB.map(|row| sum(&row, &p));
+        Patch::new([3, 3], along_u.map(along_v).as_flattened().to_vec())
     }
 }
