@@ -77,9 +77,11 @@ static void readTag(std::istringstream &words, Cage &cage) {
     for (std::string &s : strings) words >> s;
     if (!words) fail("short tag " + name);
     if (name == "crease") {
-        for (int i = 0; i + 1 < numInts; ++i) {
+        // Pairs, or a chain: an odd number of vertices, or one sharpness for each of its edges.
+        bool chain = numInts % 2 == 1 || (numInts > 2 && numFloats == numInts - 1);
+        for (int i = 0, edge = 0; i + 1 < numInts; i += chain ? 1 : 2, ++edge) {
             cage.creases.insert(cage.creases.end(), {ints[i], ints[i + 1]});
-            cage.creaseSharpness.push_back(floats[numFloats > 1 ? i : 0]);
+            cage.creaseSharpness.push_back(floats.at(numFloats > 1 ? edge : 0));
         }
     } else if (name == "corner") {
         for (int i = 0; i < numInts; ++i) {
@@ -95,6 +97,8 @@ static void readTag(std::istringstream &words, Cage &cage) {
                                           : Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
     } else if (name == "creasemethod") {
         cage.chaikin = strings.at(0) == "chaikin";
+    } else if (name == "smoothtriangles") {
+        if (strings.at(0) != "catmark") fail("rules for triangles are not compared");
     } else if (name != "facevaryinginterpolateboundary") {
         fail("unknown tag " + name);
     }
