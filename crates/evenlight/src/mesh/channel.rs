@@ -145,12 +145,12 @@ impl Splitter<'_> {
             let vertex = VertexId(self.vertices.len() as u32);
             self.vertices.push(fan.value);
             fan.faces.iter().for_each(|h| self.of_corner[h.index()] = vertex);
-            let beyond = self.beyond(v, &fans, k);
-            let sharpness = if sharpness > 0.0 { sharpness } else { beyond.vertex() };
+            let beyond = self.beyond(v, &fans, k, sharpness);
+            let sharpness = sharpness.max(beyond.vertex());
             if sharpness > 0.0 {
                 self.corners.push(Corner { vertex, sharpness });
             }
-            if sharpness < INFINITELY_SHARP && beyond != Beyond::default() {
+            if beyond != Beyond::default() {
                 self.beyond.insert(vertex, beyond);
             }
         }
@@ -249,13 +249,13 @@ impl Splitter<'_> {
             }
     }
 
-    /// The semi-sharp edges at `v` that are not of fan `own`. Beside a fan with semi-sharp edges,
-    /// which is a corner for some refinements, one without is a corner for as long; but vertices
-    /// that are themselves semi-sharp depend on nothing else.
-    fn beyond(&self, v: VertexId, fans: &[Fan], own: usize) -> Beyond {
+    /// The semi-sharp edges at `v` that are not of fan `own`, which is so sharp itself. Beside a fan
+    /// with semi-sharp edges, which is a corner for some refinements, one without is a corner for
+    /// as long; but what is sharp itself depends on nothing else.
+    fn beyond(&self, v: VertexId, fans: &[Fan], own: usize, sharpness: f64) -> Beyond {
         let depends = self.has_dependence()
             && fans.len() == 2
-            && self.vertex_sharpness[v.index()] == 0.0
+            && sharpness == 0.0
             && fans[own].semi_sharp().next().is_none();
         let others = fans.iter().enumerate().filter(|&(k, _)| k != own);
         let others = others.flat_map(|(_, fan)| fan.semi_sharp());
