@@ -326,6 +326,12 @@ fn textures() -> Vec<(&'static str, Cage)> {
                 .about("an infinitely sharp crease on one side of a seam, 1.5 on the other"),
         ),
         (
+            "uv_dependent_seam",
+            halved(&[(0, 3.2), (1, 1.5), (3, 2.4)]).about(
+                "a crease on one side of a seam holds the other; the seam is sharp for longer",
+            ),
+        ),
+        (
             "uv_dependent_corner",
             halved(&[(2, 2.7)])
                 .about("a vertex of sharpness 1.3 on a seam, and a crease on one side")

@@ -262,9 +262,9 @@ impl Splitter<'_> {
         let seams = self.topology.ring(v).filter(|&h| self.is_inner_seam(h));
         let seams = seams.map(|h| self.edge_sharpness[h.index()]).filter(|&s| is_semi_sharp(s));
         if depends {
-            Beyond { holding: others.collect(), apart: seams.collect() }
+            Beyond { holding: others.collect(), apart: seams.collect(), ..Beyond::default() }
         } else {
-            Beyond { holding: Vec::new(), apart: others.chain(seams).collect() }
+            Beyond { apart: others.chain(seams).collect(), ..Beyond::default() }
         }
     }
 

@@ -73,12 +73,23 @@ pub(crate) struct Beyond {
     pub(crate) holding: Vec<f64>,
     /// That of the others.
     pub(crate) apart: Vec<f64>,
+    /// Whether nothing holds the vertex any more since the last refinement, but a seam was still
+    /// semi-sharp: then OpenSubdiv keeps it a corner once more, and we do the same.
+    pub(crate) lingers: bool,
 }
+
+/// The sharpness of a vertex that lingers: it ends in the next refinement, and weighs nothing.
+const LINGERING: f64 = 1e-30;
 
 impl Beyond {
     /// As the vertex is a corner for as long as it is held, so sharp is it.
     pub(crate) fn vertex(&self) -> f64 {
-        self.holding.iter().copied().fold(0.0, f64::max)
+        let lingering = if self.lingers { LINGERING } else { 0.0 };
+        self.holding.iter().copied().fold(lingering, f64::max)
+    }
+
+    fn is_held(&self) -> bool {
+        self.holding.iter().any(|&s| s > 0.0)
     }
 
     fn all(&self) -> impl Iterator<Item = f64> + '_ {
@@ -224,7 +235,8 @@ impl Sharpness {
     /// How what makes `v` itself a corner changes: its sharpness, or that of the edges that hold it.
     pub(crate) fn vertex_changes(&self, topology: &Topology, v: VertexId) -> Vec<[f64; 2]> {
         match (self.beyond.get(&v), self.child_beyond(topology, v)) {
-            (Some(now), Some(then)) if !now.holding.is_empty() => {
+            (Some(_), Some(then)) if then.lingers => vec![[self.vertex(v), LINGERING]],
+            (Some(now), Some(then)) if now.is_held() => {
                 now.holding.iter().zip(&then.holding).map(|(&a, &b)| [a, b]).collect()
             }
             _ => vec![[self.vertex(v), lowered(self.vertex(v))]],
@@ -238,10 +250,13 @@ impl Sharpness {
 
     /// The edges beyond the seams at `v` after a refinement.
     pub(crate) fn child_beyond(&self, topology: &Topology, v: VertexId) -> Option<Beyond> {
-        let Beyond { holding, apart } = self.beyond.get(&v)?;
+        let now = self.beyond.get(&v)?;
         let spokes = self.spokes(topology, v);
         let children = |edges: &[f64]| self.children(edges.iter().copied(), &spokes, v);
-        Some(Beyond { holding: children(holding), apart: children(apart) })
+        let (holding, apart) = (children(&now.holding), children(&now.apart));
+        let then = Beyond { holding, apart, lingers: false };
+        let lingers = now.is_held() && !then.is_held() && then.apart.iter().any(|&s| s > 0.0);
+        Some(Beyond { lingers, ..then })
     }
 
     /// The sharpness of a refined level, edge by edge in the order of its half-edges.
