@@ -28,10 +28,12 @@ const MARKERS: [&str; 2] =
 const RINGS: usize = 3;
 
 /// Other caps that are measured.
-const OTHERS: [(SchemeKind, usize, CapKind); 6] = [
+const OTHERS: [(SchemeKind, usize, CapKind); 8] = [
     (SchemeKind::CatmullClark, RINGS, CapKind::Bi3),
     (SchemeKind::Qas3, RINGS, CapKind::Bi3),
     (SchemeKind::Guided3, RINGS, CapKind::Bi3),
+    (SchemeKind::Guided3, RINGS, CapKind::Bi4),
+    (SchemeKind::Guided4, RINGS, CapKind::Bi4),
     (SchemeKind::Qas4, RINGS, CapKind::Bi4),
     (SchemeKind::Qas4, RINGS, CapKind::Bi6),
     (SchemeKind::Guided5, RINGS, CapKind::Bi6),

@@ -19,7 +19,7 @@ use evenlight::{SchemeKind, Surface, SurfaceOptions};
 
 use crate::cap::{self, CapArg};
 use crate::error::Failure;
-use crate::input::{self, CageArg, Source};
+use crate::input::{self, CageArg};
 use crate::options::{BoundaryArg, RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
@@ -108,7 +108,7 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
         let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;
         let mut analysis = Analysis::of(surface, args.rings.into());
-        analysis.close(cap, args.rings.into(), &args.cage.source)?;
+        analysis.close(cap, args.rings.into())?;
         analyses.push(analysis);
         progress.step();
     }
@@ -138,13 +138,8 @@ impl Analysis {
     }
 
     /// Closes the surface and measures the caps too.
-    fn close(
-        &mut self,
-        kind: Option<CapKind>,
-        rings: usize,
-        source: &Source,
-    ) -> Result<(), Failure> {
-        cap::close(&mut self.surface, kind, rings, source)?;
+    fn close(&mut self, kind: Option<CapKind>, rings: usize) -> Result<(), Failure> {
+        cap::close(&mut self.surface, kind, rings)?;
         self.caps = cap_report(&self.surface);
         Ok(())
     }

@@ -4,15 +4,16 @@ use clap::{Args, ValueEnum};
 use evenlight::cap::{CapError, CapKind, CapOptions};
 use evenlight::{SchemeKind, Surface};
 
-use crate::error::{Failure, warn};
-use crate::input::{self, Source};
+use crate::error::Failure;
+use crate::input;
 use crate::options::SurfaceArgs;
 
 /// What closes the holes behind rings.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct CapArg {
     /// Close the hole behind the last of the --rings around every extraordinary point by
-    /// finitely many patches, so that the surface has no end of rings
+    /// finitely many patches, so that the surface has no end of rings; on boundaries, creases and
+    /// corners one bi-4 patch per sector (bi-3 with bi3)
     #[arg(long, value_enum, default_value_t = CapChoice::None)]
     pub cap: CapChoice,
 }
@@ -22,7 +23,7 @@ pub struct CapArg {
 pub enum CapChoice {
     /// Rings without end
     None,
-    /// What suits the scheme: bi6 for guided6, bi4 for guided3 and guided4, else bi5
+    /// What suits the scheme: bi6 for guided6, else bi5
     Auto,
     /// Bi-3, 3 x 3 patches per sector (more where the rings are split); tangent planes across lines agree to small angles only
     Bi3,
@@ -55,7 +56,7 @@ impl CapArg {
     pub fn read(self, args: &SurfaceArgs, rings: u8) -> Result<Surface, Failure> {
         let kind = self.kind(&[args.scheme])?;
         let mut surface = input::read_surface(args)?;
-        close(&mut surface, kind, rings.into(), &args.cage.source)?;
+        close(&mut surface, kind, rings.into())?;
         Ok(surface)
     }
 }
@@ -78,24 +79,8 @@ impl CapRingsArg {
     }
 }
 
-/// Closes a surface by caps of some kind behind `rings` rings; how many points have none is said on
-/// stderr.
-pub fn close(
-    surface: &mut Surface,
-    kind: Option<CapKind>,
-    rings: usize,
-    source: &Source,
-) -> Result<(), Failure> {
+/// Closes a surface by caps of some kind behind `rings` rings.
+pub fn close(surface: &mut Surface, kind: Option<CapKind>, rings: usize) -> Result<(), Failure> {
     let options = kind.map(|kind| CapOptions { rings, kind });
-    surface.set_caps(options).map_err(|error| Failure::Usage(format!("--cap: {error}")))?;
-    let points = surface.points_without_cap();
-    if let Some(&first) = points.first() {
-        let all = surface.extraordinary_points().len();
-        let why = surface.why_no_cap(first).map_or_else(String::new, |error| error.to_string());
-        warn(format_args!(
-            "{source}: {} of {all} extraordinary points have no cap but rings without end: {why}",
-            points.len()
-        ));
-    }
-    Ok(())
+    surface.set_caps(options).map_err(|error| Failure::Usage(format!("--cap: {error}")))
 }

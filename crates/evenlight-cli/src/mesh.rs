@@ -3,11 +3,11 @@
 use clap::{Args, ValueEnum};
 use evenlight::Surface;
 use evenlight::io::{glb, obj_out, ply_out, stl};
-use evenlight::mesh::{Interpolation, Primvar};
-use evenlight::tessellate::{CornerValues, TriangleMesh, tessellate};
+use evenlight::mesh::Primvar;
+use evenlight::tessellate::{CornerChannels, TriangleMesh, tessellate};
 
 use crate::cap::CapRingsArg;
-use crate::error::Failure;
+use crate::error::{Failure, warn};
 use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
@@ -21,8 +21,8 @@ pub struct MeshArgs {
     #[command(flatten)]
     caps: CapRingsArg,
 
-    /// The file to write: .obj with normals and texture coordinates, .ply or .glb with normals and
-    /// curvature, or .stl; `-` for stdout
+    /// The file to write: .obj with normals, .ply or .glb with normals and curvature, these with the
+    /// texture coordinates and colours of the cage, or .stl; `-` for stdout
     #[arg(short, long, value_name = "FILE")]
     output: Target,
 
@@ -38,13 +38,14 @@ pub struct MeshArgs {
 /// Files that hold triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MeshFormat {
-    /// Wavefront OBJ with normals, and the texture coordinates of the cage
+    /// Wavefront OBJ with normals, hard at infinitely sharp edges, texture coordinates and colours
     Obj,
-    /// PLY with normals, Gauss and mean curvature per vertex
+    /// PLY with one normal, Gauss and mean curvature and colour per vertex, texture coordinates
     Ply,
     /// Binary STL
     Stl,
-    /// Binary glTF with normals, Gauss and mean curvature per vertex
+    /// Binary glTF with normals, hard at infinitely sharp edges, Gauss and mean curvature, all sets
+    /// of texture coordinates, and colours
     Glb,
 }
 
@@ -59,8 +60,14 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let mesh = triangles(&surface, args.rate.into())?;
     progress.step();
     progress.stage("Writing triangles");
-    let texture = texture(&surface, &mesh).filter(|_| format == MeshFormat::Obj);
-    write(&mesh, texture.as_ref(), format, &args.output)
+    let channels = match format {
+        MeshFormat::Stl => CornerChannels::default(),
+        _ => mesh.corner_channels(&surface),
+    };
+    write(&mesh, &channels, format, &args.output)?;
+    let omitted = omitted(&surface, &mesh, &channels, format);
+    omitted.iter().for_each(|sentence| warn(format_args!("{}: {sentence}", args.output)));
+    Ok(())
 }
 
 /// Triangles with `rate` segments per edge.
@@ -68,26 +75,46 @@ pub fn triangles(surface: &Surface, rate: usize) -> Result<TriangleMesh, Failure
     tessellate(surface, rate).map_err(|error| Failure::Unusable(error.to_string()))
 }
 
-/// The texture coordinates of the triangles: the first channel of the cage with values of corners
-/// that are two numbers or more.
-fn texture(surface: &Surface, mesh: &TriangleMesh) -> Option<CornerValues> {
-    let is_texture = |p: &Primvar| p.interpolation == Interpolation::FaceVarying && p.width >= 2;
-    let primvar = surface.primvars().iter().position(is_texture)?;
-    mesh.corner_values(surface, primvar)
-}
-
 /// Writes `mesh`.
 pub fn write(
     mesh: &TriangleMesh,
-    texture: Option<&CornerValues>,
+    channels: &CornerChannels,
     format: MeshFormat,
     target: &Target,
 ) -> Result<(), Failure> {
-    target.write(|mut out| match (format, texture) {
-        (MeshFormat::Obj, None) => obj_out::write(mesh, &mut out),
-        (MeshFormat::Obj, Some(texture)) => obj_out::write_textured(mesh, texture, &mut out),
-        (MeshFormat::Ply, _) => ply_out::write(mesh, &mut out),
-        (MeshFormat::Stl, _) => stl::write(mesh, &mut out),
-        (MeshFormat::Glb, _) => glb::write(mesh, &mut out),
+    target.write(|mut out| match format {
+        MeshFormat::Obj => obj_out::write_textured(mesh, channels, &mut out),
+        MeshFormat::Ply => ply_out::write_textured(mesh, channels, &mut out),
+        MeshFormat::Stl => stl::write(mesh, &mut out),
+        MeshFormat::Glb => glb::write_textured(mesh, channels, &mut out),
     })
+}
+
+/// What of the cage is not in the file, in sentences.
+fn omitted(
+    surface: &Surface,
+    mesh: &TriangleMesh,
+    channels: &CornerChannels,
+    format: MeshFormat,
+) -> Vec<String> {
+    let of_format = match format {
+        MeshFormat::Obj => obj_out::omitted(mesh, channels),
+        MeshFormat::Ply => ply_out::omitted(mesh, channels),
+        MeshFormat::Stl | MeshFormat::Glb => Vec::new(),
+    };
+    let carried = |p: &&Primvar| {
+        channels.uv_sets.iter().chain(&channels.color).any(|channel| channel.name == p.name)
+    };
+    let others = surface.primvars().iter().filter(|p| !carried(p)).map(|p| format!("`{}`", p.name));
+    let others = others.collect::<Vec<_>>().join(", ");
+    let reason = match format {
+        _ if others.is_empty() => None,
+        MeshFormat::Stl => Some("STL holds nothing but triangles"),
+        _ => Some(
+            "of the channels, the file has those of two numbers (texture coordinates) and the first \
+             named `color` or `displayColor` of three or four",
+        ),
+    };
+    let sentence = reason.map(|reason| format!("{reason}: {others} left out"));
+    of_format.into_iter().chain(sentence).collect()
 }

@@ -189,7 +189,7 @@ fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
         let options = args.surface.rules.options_among(schemes, scheme);
         let mut surface = input::build(Arc::clone(&cage), options, source)?;
         edits.apply(&mut surface)?;
-        cap::close(&mut surface, kind, args.caps.rings.into(), source)?;
+        cap::close(&mut surface, kind, args.caps.rings.into())?;
         Ok(surface)
     };
     let surfaces = schemes.iter().map(build).collect::<Result<Vec<_>, _>>()?;

@@ -90,3 +90,35 @@ fn catmull_clark_in_place_of_the_scheme_is_told() {
     assert!(told.contains(sentence) && told.contains(" more (numbers from 0)"), "{told}");
     assert_eq!(stderr(&["--scheme", "guided5"]), "");
 }
+
+/// A square of two quads with a sharp edge between them, texture coordinates and colours.
+const ROOF: &str = "v 0 0 0 1 0 0\nv 1 0 1 0 1 0\nv 2 0 0 0 0 1\nv 0 1 0 1 0 0\nv 1 1 1 0 1 0\n\
+                    v 2 1 0 0 0 1\nvt 0 0\nvt .5 0\nvt 1 0\nvt 0 1\nvt .5 1\nvt 1 1\n\
+                    f 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/5\nt crease 2/1/0 1 4 10\n";
+
+#[test]
+fn sharp_edges_have_two_normals_and_channels_are_written() {
+    let fixed = ["mesh", "-", "-o", "-", "--rate", "2", "--format"];
+    let written = |format: &str| run_on(ROOF, &[&fixed[..], &[format]].concat());
+    let text = stdout(&written("obj"));
+    let count = |tag: &str| text.lines().filter(|line| line.starts_with(tag)).count();
+    assert_eq!(["v ", "vt ", "vn ", "f "].map(count), [15, 15, 18, 16]);
+    assert!(text.lines().filter(|l| l.starts_with("v ")).all(|l| l.split(' ').count() == 7));
+    let glb = written("glb").stdout;
+    let json = String::from_utf8_lossy(&glb[20..]).into_owned();
+    assert!(json.contains(r#""TEXCOORD_0":4,"COLOR_0":5"#), "{json}");
+}
+
+#[test]
+fn what_a_format_cannot_hold_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |name: &str| {
+        let file = folder.path().join(name);
+        let output = run_on(ROOF, &["mesh", "-", "-o", arg(&file)]);
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(told("a.glb") + &told("a.obj"), "");
+    assert!(told("a.ply").contains("a.ply: PLY has one normal for a vertex: on sharp edges it is"));
+    assert!(told("a.stl").contains("STL holds nothing but triangles: `st`, `color` left out"));
+}

@@ -76,6 +76,7 @@ pub mod analyse;
 mod angle;
 pub mod basis;
 pub mod cap;
+mod dense;
 pub mod io;
 pub mod mesh;
 pub mod net;

@@ -29,13 +29,20 @@
 //! as exact as ring 1. The one thing to guard is that rounding must not bring the part that
 //! shrinks by lambda back into Z: it is removed in every step.
 
+mod grid;
+
+pub(crate) use grid::for_each_pair;
+
 use std::sync::{Arc, OnceLock};
 
 use crate::mesh::Fan;
 use crate::net::{CNet, DNet, Expansion, Quadratic};
-use crate::patch::{Jet, Patch, SurfacePoint};
+use crate::patch::kernel::patch_jet;
+use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::point::{Point, Vector, add, add_scaled, cross, dot, norm, scale, sub, unit};
-use crate::scheme::{FanLimit, Rules, SchemeKind, Subdominant, Variant, fan_rules};
+use crate::scheme::{
+    FanLimit, PatchParameters, Rules, SchemeKind, Subdominant, Variant, fan_rules,
+};
 
 /// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
 /// valence.
@@ -63,9 +70,9 @@ impl ValenceRules {
         Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
     }
 
-    /// Whether they are of a fan between sharp edges, which has no turns.
-    pub(crate) fn is_fan(&self) -> bool {
-        self.fan.is_some()
+    /// Of a fan between sharp edges, which has no turns, its limit.
+    pub(crate) fn fan_limit(&self) -> Option<&FanLimit> {
+        self.fan.as_ref()
     }
 
     pub(crate) fn kind(&self) -> SchemeKind {
@@ -126,11 +133,39 @@ struct Frame {
 }
 
 /// One ring in frame coordinates, scaled as the module says.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct Ring {
-    patches: Vec<Patch>,
-    /// The net in front of the next ring.
+    /// The BB coefficients of the patches of each sector, made when it is first evaluated: they
+    /// take most of the memory.
+    sectors: Box<[OnceLock<Box<[Vector]>>]>,
+    /// The net in front of the next ring, in its own scale.
     next: Vec<Vector>,
+    scale: RingScale,
+}
+
+/// How the coordinates of a ring become those of the world.
+#[derive(Clone, Copy, Debug)]
+struct RingScale {
+    /// The axes of the frame, the height with its factor zeta.
+    axes: [Vector; 3],
+    zeta: f64,
+    /// lambda^l, the factor of positions.
+    sigma: f64,
+    /// The factors of first and second derivatives, which are by a and b: those run sigma^-l times
+    /// as fast.
+    first: f64,
+    second: f64,
+}
+
+impl RingScale {
+    /// factor (X, Y, zeta Z) in world coordinates.
+    #[inline(always)]
+    fn world(&self, factor: f64, r: Vector) -> Vector {
+        let along = |k: usize| {
+            factor * (r[0] * self.axes[0][k] + r[1] * self.axes[1][k] + r[2] * self.axes[2][k])
+        };
+        [along(0), along(1), along(2)]
+    }
 }
 
 impl Rings {
@@ -252,13 +287,16 @@ impl Rings {
 
     /// All patches of ring `ring` (from 0), sector by sector.
     pub fn patches(&self, ring: usize) -> Vec<Patch> {
-        self.with_ring(ring, |r| r.patches.iter().map(|p| self.to_world(ring, p)).collect())
+        self.frame_patches(ring).iter().map(|patch| self.to_world(ring, patch)).collect()
     }
 
     /// Patch `which` of sector `s` of ring `ring`.
     pub fn patch(&self, ring: usize, s: usize, which: usize) -> Patch {
-        let number = self.patches_per_sector() * s + which;
-        self.with_ring(ring, |r| self.to_world(ring, &r.patches[number]))
+        self.with_ring(ring, |net, r| {
+            let mut coefs = self.coefs(net, r, s, which);
+            coefs.iter_mut().for_each(|p| *p = add(self.center, r.scale.world(r.scale.sigma, *p)));
+            Patch::new([self.rules.rules.degree; 2], coefs)
+        })
     }
 
     /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
@@ -272,19 +310,28 @@ impl Rings {
     ///
     /// If `s` is not below the valence or a, b are not from 0 to 1.
     pub fn eval(&self, s: usize, a: f64, b: f64) -> SurfacePoint {
+        self.eval_as(s, a, b)
+    }
+
+    /// [`Rings::eval`] of what is wanted alone.
+    #[inline]
+    pub(crate) fn eval_as<A: Answer>(&self, s: usize, a: f64, b: f64) -> A {
         assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
         if a.max(b) == 0.0 {
             return self.at_center();
         }
-        let ring = ring_of(a.max(b), self.sigma());
-        let [a, b] = [a, b].map(|x| scaled_up(x, ring, self.sigma()));
-        self.eval_scaled(ring, s, self.rules.rules.patch_at([a, b]), [a, b])
+        let (ring, at) = in_ring([a, b], self.sigma());
+        let place = self.rules.rules.locate(at);
+        self.eval_in_patch(ring, s, place)
     }
 
     /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
     /// polynomial is extrapolated if (a,b) is not in the patch.
     pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
-        self.eval_scaled(ring, s, which, [a, b].map(|x| scaled_up(x, ring, self.sigma())))
+        let ([a0, b0], size) = self.rules.rules.patch_square(which);
+        let [a, b] = self.in_hole(ring, [a, b]);
+        let at = [(a - a0) / size[0], (b - b0) / size[1]];
+        self.eval_in_patch(ring, s, PatchParameters { which, at, size })
     }
 
     /// Parameters of a sector as those of the hole in front of ring `ring`, the hole being the unit
@@ -298,20 +345,45 @@ impl Rings {
         at.map(|x| (0..ring).fold(x, |x, _| self.sigma() * x))
     }
 
-    /// A patch at (A,B) = (a,b) / sigma^ring.
-    fn eval_scaled(&self, ring: usize, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
-        let ([a0, b0], size) = self.rules.rules.patch_square(which);
-        let number = self.patches_per_sector() * s + which;
-        let [u, v] = [(a - a0) / size[0], (b - b0) / size[1]];
-        let jet = self.with_ring(ring, |r| r.patches[number].jet(u, v));
-        self.in_world(ring, size, &jet)
+    /// A place in a patch of sector `s`, its size as in ring 0.
+    #[inline]
+    fn eval_in_patch<A: Answer>(&self, ring: usize, s: usize, place: PatchParameters) -> A {
+        let PatchParameters { which, at, size } = place;
+        self.with_coefs(ring, s, which, |scale, coefs| {
+            let jet = patch_jet(A::ORDER, self.rules.rules.degree, coefs, at);
+            self.placed(scale, size, &jet)
+        })
     }
 
-    fn at_center(&self) -> SurfacePoint {
-        let nan = [f64::NAN; 3];
-        let jet = Jet { p: self.center, du: nan, dv: nan, duu: nan, duv: nan, dvv: nan };
-        let (gauss, mean) = self.center_curvature().unwrap_or((f64::NAN, f64::NAN));
-        SurfacePoint { jet, normal: self.normal(), gauss, mean }
+    /// Calls `f` with the BB coefficients of a patch.
+    #[inline]
+    fn with_coefs<T>(
+        &self,
+        ring: usize,
+        s: usize,
+        which: usize,
+        f: impl FnOnce(&RingScale, &[Vector]) -> T,
+    ) -> T {
+        let rules = &self.rules.rules;
+        if ring >= CACHED_RINGS {
+            return self.with_ring(ring, |net, r| f(&r.scale, &self.coefs(net, r, s, which)));
+        }
+        let r = self.cached_ring(ring);
+        let all = || -> Box<[Vector]> {
+            let net = self.net_in_front(ring);
+            (0..self.patches_per_sector()).flat_map(|k| self.coefs(net, r, s, k)).collect()
+        };
+        let coefs = r.sectors[s].get_or_init(all);
+        let per_patch = (rules.degree + 1) * (rules.degree + 1);
+        f(&r.scale, &coefs[which * per_patch..][..per_patch])
+    }
+
+    fn at_center<A: Answer>(&self) -> A {
+        let jet = Jet { p: self.center, ..Answer::NAN };
+        A::from_parts(jet, |_| {
+            let (gauss, mean) = self.center_curvature().unwrap_or((f64::NAN, f64::NAN));
+            Shape { normal: self.normal(), gauss, mean }
+        })
     }
 
     /// K and H at the limit point: those of q or of the guide, in schemes that have one and where
@@ -344,92 +416,118 @@ impl Rings {
 
     /// The net in front of ring `ring`, in the frame and scaled as that ring.
     pub(crate) fn net(&self, ring: usize) -> Vec<Vector> {
-        match ring {
-            0 => self.first.clone(),
-            _ => self.with_ring(ring - 1, |r| r.next.clone()),
-        }
+        self.with_ring(ring, |net, _| net.to_vec())
     }
 
     /// All patches of ring `ring` in the frame, scaled as that ring.
     pub(crate) fn frame_patches(&self, ring: usize) -> Vec<Patch> {
-        self.with_ring(ring, |r| r.patches.clone())
+        let all = |net: &[Vector], r: &Ring| {
+            let per_sector = self.patches_per_sector();
+            let numbers = 0..per_sector * self.valence();
+            let patch = |k: usize| self.frame_patch(net, r, k / per_sector, k % per_sector);
+            numbers.map(patch).collect()
+        };
+        self.with_ring(ring, all)
+    }
+
+    /// Patch `which` of sector `s` of the ring behind `net`.
+    fn frame_patch(&self, net: &[Vector], ring: &Ring, s: usize, which: usize) -> Patch {
+        Patch::new([self.rules.rules.degree; 2], self.coefs(net, ring, s, which))
+    }
+
+    /// The BB coefficients of patch `which` of sector `s` of the ring behind `net`.
+    fn coefs(&self, net: &[Vector], ring: &Ring, s: usize, which: usize) -> Vec<Vector> {
+        // Both nets in the scale of `net`.
+        let next = (&ring.next[..], self.shrinkage());
+        self.rules.rules.patch_of_scaled(s, which, net, next)
     }
 
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
-    /// in (a,b).
-    pub(crate) fn in_world(&self, ring: usize, [u, v]: [f64; 2], jet: &Jet) -> SurfacePoint {
+    /// in (a,b); the patch is so large in ring 0.
+    pub(crate) fn in_world<A: Answer>(&self, ring: usize, size: [f64; 2], jet: &Jet) -> A {
+        self.placed(&self.ring_scale(ring), size, jet)
+    }
+
+    #[inline]
+    fn placed<A: Answer>(&self, scale: &RingScale, [u, v]: [f64; 2], jet: &Jet) -> A {
+        let RingScale { sigma, first, second, .. } = *scale;
+        let mut found = Jet { p: add(self.center, scale.world(sigma, jet.p)), ..Jet::default() };
+        if A::ORDER >= 1 {
+            found.du = scale.world(first / u, jet.du);
+            found.dv = scale.world(first / v, jet.dv);
+        }
+        if A::ORDER >= 2 {
+            found.duu = scale.world(second / (u * u), jet.duu);
+            found.duv = scale.world(second / (u * v), jet.duv);
+            found.dvv = scale.world(second / (v * v), jet.dvv);
+        }
+        A::from_parts(found, |_| {
+            let shape = frame_shape(jet, sigma, scale.zeta);
+            Shape { normal: self.frame.world(1.0, 1.0, shape.normal), ..shape }
+        })
+    }
+
+    fn ring_scale(&self, ring: usize) -> RingScale {
         let (lambda, step) = (self.lambda(), self.sigma());
         let sigma = power(lambda, ring);
         let zeta = if self.frame.has_plane { sigma } else { 1.0 };
-        // A patch parameter runs step^-ring / size times as fast as a and b.
-        let first = power(lambda / step, ring);
-        let second = power(lambda / (step * step), ring);
-        let world = |factor: f64, r: Vector| self.frame.world(factor, zeta, r);
-        let (normal, gauss, mean) = normal_and_curvature(jet, sigma, zeta);
-        SurfacePoint {
-            jet: Jet {
-                p: add(self.center, world(sigma, jet.p)),
-                du: world(first / u, jet.du),
-                dv: world(first / v, jet.dv),
-                duu: world(second / (u * u), jet.duu),
-                duv: world(second / (u * v), jet.duv),
-                dvv: world(second / (v * v), jet.dvv),
-            },
-            normal: self.frame.world(1.0, 1.0, normal),
-            gauss,
-            mean,
+        let [x, y, z] = self.frame.axes;
+        RingScale {
+            axes: [x, y, scale(zeta, z)],
+            zeta,
+            sigma,
+            // A patch parameter runs step^-ring / size times as fast as a and b.
+            first: power(lambda / step, ring),
+            second: power(lambda / (step * step), ring),
         }
     }
 
     /// A patch of ring `ring` in world coordinates.
     pub(crate) fn to_world(&self, ring: usize, patch: &Patch) -> Patch {
-        let sigma = power(self.lambda(), ring);
-        let zeta = if self.frame.has_plane { sigma } else { 1.0 };
-        let point = |&r: &Vector| add(self.center, self.frame.world(sigma, zeta, r));
+        let scale = self.ring_scale(ring);
+        let point = |&r: &Vector| add(self.center, scale.world(scale.sigma, r));
         Patch::new(patch.degree(), patch.coefs().iter().map(point).collect())
     }
 
-    /// Calls `f` with ring `ring`.
-    fn with_ring<T>(&self, ring: usize, f: impl FnOnce(&Ring) -> T) -> T {
+    /// Calls `f` with the net in front of ring `ring` and the ring.
+    fn with_ring<T>(&self, ring: usize, f: impl FnOnce(&[Vector], &Ring) -> T) -> T {
         if ring < CACHED_RINGS {
-            return f(self.cached_ring(ring));
+            return f(self.net_in_front(ring), self.cached_ring(ring));
         }
         let mut net = self.cached_ring(CACHED_RINGS - 1).next.clone();
         for _ in CACHED_RINGS..ring {
-            net = self.normalised(self.rules.rules.refine(&net));
+            net = self.normalised(&self.rules.rules.refine(&net));
         }
-        f(&self.ring_from(&net))
+        f(&net, &self.ring_from(ring, &net))
     }
 
+    /// The net in front of a ring that is kept.
+    fn net_in_front(&self, ring: usize) -> &[Vector] {
+        if ring == 0 { &self.first } else { &self.cached_ring(ring - 1).next }
+    }
+
+    #[inline]
     fn cached_ring(&self, ring: usize) -> &Ring {
-        self.cached[ring].get_or_init(|| {
-            let net = if ring == 0 { &self.first } else { &self.cached_ring(ring - 1).next };
-            Box::new(self.ring_from(net))
-        })
+        self.cached[ring].get_or_init(|| Box::new(self.ring_from(ring, self.net_in_front(ring))))
     }
 
     /// The ring behind `net`, and the net behind it.
-    fn ring_from(&self, net: &[Vector]) -> Ring {
-        let rules = &self.rules.rules;
-        let refined = rules.refine(net);
-        // The patches need both nets in one scale: that of `net`, which `refined` has still.
-        let per_sector = rules.patches_per_sector();
-        let patches = (0..per_sector * rules.valence)
-            .map(|k| {
-                let coefs = rules.patch(k / per_sector, k % per_sector, net, &refined);
-                Patch::new([rules.degree; 2], coefs)
-            })
-            .collect();
-        Ring { patches, next: self.normalised(refined) }
+    fn ring_from(&self, ring: usize, net: &[Vector]) -> Ring {
+        let next = self.normalised(&self.rules.rules.refine(net));
+        let sectors = std::iter::repeat_with(OnceLock::new).take(self.valence()).collect();
+        Ring { sectors, next, scale: self.ring_scale(ring) }
+    }
+
+    /// The factors by which the coordinates of a net become smaller from ring to ring.
+    fn shrinkage(&self) -> Vector {
+        let lambda = self.lambda();
+        [lambda, lambda, if self.frame.has_plane { lambda * lambda } else { lambda }]
     }
 
     /// A refined net in its own scale.
-    fn normalised(&self, mut net: Vec<Vector>) -> Vec<Vector> {
-        let shrink = self.lambda();
-        let height = if self.frame.has_plane { shrink * shrink } else { shrink };
-        for p in &mut net {
-            *p = [p[0] / shrink, p[1] / shrink, p[2] / height];
-        }
+    fn normalised(&self, net: &[Vector]) -> Vec<Vector> {
+        let [x, y, z] = self.shrinkage();
+        let mut net: Vec<Vector> = net.iter().map(|p| [p[0] / x, p[1] / y, p[2] / z]).collect();
         if self.frame.has_plane {
             self.rules.subdominant.remove_from_coordinate(2, &mut net);
         }
@@ -479,19 +577,36 @@ impl Frame {
 /// ```
 ///
 /// Nothing in it becomes small when sigma = zeta does.
-fn normal_and_curvature(jet: &Jet, sigma: f64, zeta: f64) -> (Vector, f64, f64) {
+fn frame_shape(jet: &Jet, sigma: f64, zeta: f64) -> Shape {
     let flat = |r: Vector| [r[0], r[1], zeta * r[2]];
-    let (ru, rv) = (flat(jet.du), flat(jet.dv));
-    let (area, volume) = (cross(ru, rv), cross(jet.du, jet.dv));
-    let w = norm(area);
-    let [d_uu, d_uv, d_vv] = [jet.duu, jet.duv, jet.dvv].map(|r| dot(volume, r));
-    let (e, f, g) = (dot(ru, ru), dot(ru, rv), dot(rv, rv));
+    let volume = cross(jet.du, jet.dv);
+    let determinants = [jet.duu, jet.duv, jet.dvv].map(|r| dot(volume, r));
+    let shape = Shape::new(flat(jet.du), flat(jet.dv), determinants);
     let ratio = if zeta == sigma { 1.0 } else { zeta / sigma };
-    let w2 = w * w;
-    let gauss = ratio * ratio * (d_uu * d_vv - d_uv * d_uv) / (w2 * w2);
-    let mean = ratio * (e * d_vv - 2.0 * f * d_uv + g * d_uu) / (2.0 * w2 * w);
-    (unit(area), gauss, mean)
+    Shape { gauss: ratio * ratio * shape.gauss, mean: ratio * shape.mean, ..shape }
 }
+
+/// The ring of a place (a,b) of a sector other than its centre, and the place in it, as if it were
+/// ring 0.
+#[inline]
+fn in_ring([a, b]: [f64; 2], sigma: f64) -> (usize, [f64; 2]) {
+    let largest = a.max(b);
+    if sigma != 0.5 || largest < f64::MIN_POSITIVE {
+        let ring = ring_of(largest, sigma);
+        return (ring, [a, b].map(|x| scaled_up(x, ring, sigma)));
+    }
+    // largest = mantissa 2^-k, 1 <= mantissa < 2: ring k if it is a power of 2, else the one before.
+    let bits = largest.to_bits();
+    let is_power = bits & ((1 << MANTISSA) - 1) == 0;
+    let ring = EXPONENT_OF_ONE - (bits >> MANTISSA) - u64::from(!is_power);
+    let up = f64::from_bits((EXPONENT_OF_ONE + ring) << MANTISSA);
+    (ring as usize, [up * a, up * b])
+}
+
+/// The number of bits of the mantissa of an `f64`.
+const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
+/// The bits of the exponent of 1.
+const EXPONENT_OF_ONE: u64 = f64::MAX_EXP as u64 - 1;
 
 /// The ring l with sigma^(l+1) < x <= sigma^l, for 0 < x <= 1.
 pub(crate) fn ring_of(x: f64, sigma: f64) -> usize {

@@ -5,24 +5,21 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{cage, options, surface};
+use common::{cage, surface};
 use evenlight::analyse::caps::cap_report;
 use evenlight::cap::{CapError, CapKind, CapOptions};
-use evenlight::mesh::BoundaryRule;
 use evenlight::net::Quadratic;
 use evenlight::point::{norm, sub};
 use evenlight::surface::Role;
 use evenlight::tessellate::tessellate;
-use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions};
+use evenlight::{Cage, SchemeKind, Surface};
 
 /// A closed cage with n-gons, one with many valences, one with a boundary.
 const CAGES: [&str; 3] =
     ["own_polygons.obj", "own_blob_quadriflow_300.obj", "obstacle/monkey_n8.obj"];
 
 fn closed(cage: &Arc<Cage>, scheme: SchemeKind, rings: usize, kind: CapKind) -> Surface {
-    // Without faces at the boundary, whose points have no caps.
-    let options = SurfaceOptions { boundary: Some(BoundaryRule::None), ..options(scheme) };
-    let mut surface = Surface::build(cage.clone(), options).unwrap();
+    let mut surface = surface(cage, scheme);
     surface.set_caps(Some(CapOptions { rings, kind })).unwrap();
     surface
 }
@@ -43,7 +40,6 @@ fn patches_with_caps_cover_every_quad() {
                 let whole = if omitted { 0.0_f64 } else { 1.0 };
                 assert!((area - whole).abs() < 1e-12, "{name} {}: {area}", scheme.name());
             }
-            assert!(surface.points_without_cap().is_empty());
         }
     }
 }
@@ -120,39 +116,6 @@ fn caps_follow_the_quadratic() {
     let (after, expected) = (at(&surface).unwrap(), surface.rings(0).center_curvature().unwrap());
     assert!((after.mean - expected.1).abs() < 1e-12 * (1.0 + expected.1.abs()));
     assert!((after.mean - before).abs() > 1e-3);
-}
-
-/// Valence 2 has no cap: rings go on there, and nothing else is changed.
-#[test]
-fn points_without_caps_keep_their_rings() {
-    let bag = Mesh::new(
-        vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
-        [[0_u32, 1, 2, 3], [3, 2, 1, 0]],
-    );
-    let cage = Arc::new(Cage::new(bag).unwrap());
-    let surface = closed(&cage, SchemeKind::CatmullClark, 2, CapKind::Auto);
-    assert_eq!(surface.points_without_cap().len(), surface.extraordinary_points().len());
-    assert!(cap_report(&surface).is_empty());
-    assert!(surface.patch_places(2).all(|place| place.role != Role::Cap));
-    assert!(surface.eval(evenlight::QuadId(0), 1e-3, 1e-3).is_some());
-}
-
-/// On sharp edges and boundaries rings go on too; inside there are caps.
-#[test]
-fn fans_keep_their_rings() {
-    let cage = cage("features/boundary_creased.obj");
-    let mut surface = surface(&cage, SchemeKind::Qas4);
-    surface.set_caps(Some(CapOptions { rings: 1, kind: CapKind::Auto })).unwrap();
-    for (point, place) in surface.extraordinary_points().iter().enumerate() {
-        let is_inside = !place.sectors.is_empty() && surface.cap(point).is_some();
-        let expected = if is_inside { None } else { Some(&CapError::Fan) };
-        assert_eq!(surface.why_no_cap(point), expected);
-    }
-    assert!(!surface.points_without_cap().is_empty());
-    assert_eq!(
-        cap_report(&surface).len() + surface.points_without_cap().len(),
-        surface.extraordinary_points().len()
-    );
 }
 
 #[test]

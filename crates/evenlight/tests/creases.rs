@@ -5,26 +5,12 @@
 mod common;
 
 use common::Random;
+use common::fans::{fan_sheet, sheet, starred};
 use common::refine::refine;
-use evenlight::cap::{Cap, CapError, CapOptions};
 use evenlight::mesh::{BoundaryRule, Corner, Crease, CreaseMethod, Tags, VertexRule};
 use evenlight::point::{norm, sub};
 use evenlight::surface::{PatchPlace, PointRule, Reason};
 use evenlight::{Cage, FaceId, Mesh, QuadId, SchemeKind, Surface, SurfacePoint, VertexId};
-
-/// A rough sheet of m x n quads, counter-clockwise seen from above.
-fn sheet(m: u32, n: u32, random: &mut Random) -> Mesh {
-    let at = |i: u32, j: u32| i * (n + 1) + j;
-    let positions = (0..=m).flat_map(|i| (0..=n).map(move |j| (i, j)));
-    let positions: Vec<_> = positions
-        .map(|(i, j)| [f64::from(i), f64::from(j), 0.0].map(|x| x + 0.6 * (random.unit() - 0.5)))
-        .collect();
-    let cells = (0..m).flat_map(|i| (0..n).map(move |j| (i, j)));
-    Mesh::new(
-        positions,
-        cells.map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]),
-    )
-}
 
 fn surface_of(mesh: &Mesh, scheme: SchemeKind) -> Surface {
     Surface::build(Cage::new(mesh.clone()).unwrap(), common::options(scheme)).unwrap()
@@ -117,37 +103,6 @@ fn random_tags(mesh: &Mesh, random: &mut Random) -> Tags {
     tags
 }
 
-/// Quads around a vertex of valence n, closed, with one more ring.
-fn fan_sheet(n: u32, random: &mut Random) -> Mesh {
-    let mut positions = vec![[0.0, 0.0, 0.5]];
-    for r in 1..=3 {
-        for k in 0..2 * n * r {
-            let t = std::f64::consts::TAU * f64::from(k) / f64::from(2 * n * r);
-            let r = f64::from(r);
-            positions.push([r * t.cos(), r * t.sin(), 0.4 * random.unit()]);
-        }
-    }
-    // Ring r has 2 n r vertices, the corners of the sectors at multiples of 2 r; grid of a sector.
-    let at = |s: u32, a: u32, b: u32| -> u32 {
-        let r = a.max(b);
-        if r == 0 {
-            return 0;
-        }
-        let first = 1 + n * r * (r - 1);
-        let along = if a == r { b } else { 2 * r - a };
-        first + (2 * r * s + along) % (2 * n * r)
-    };
-    let mut faces = Vec::new();
-    for s in 0..n {
-        for a in 0..3 {
-            for b in 0..3 {
-                faces.push([at(s, a, b), at(s, a + 1, b), at(s, a + 1, b + 1), at(s, a, b + 1)]);
-            }
-        }
-    }
-    Mesh::new(positions, faces)
-}
-
 #[test]
 fn the_rings_of_a_fan_sheet_are_numbered_as_meant() {
     for n in 3..7 {
@@ -218,20 +173,6 @@ fn holes_have_no_surface_and_change_nothing_around() {
         let found = surface.eval(quad, 0.3, 0.6);
         assert_eq!(found, whole.eval(quad, 0.3, 0.6).filter(|_| face != 4));
     }
-}
-
-/// A fan sheet with infinitely sharp edges from the centre along these lines to the border.
-fn starred(n: u32, lines: &[u32], seed: u64) -> Mesh {
-    let mut mesh = fan_sheet(n, &mut Random::new(seed));
-    for s in lines {
-        // The vertices along a line.
-        let along = [0, 1, 2, 3].map(|r| if r == 0 { 0 } else { 1 + n * r * (r - 1) + 2 * r * s });
-        for edge in along.windows(2) {
-            let edge = [edge[0], edge[1]].map(VertexId);
-            mesh.tags.creases.push(Crease { edge, sharpness: 10.0 });
-        }
-    }
-    mesh
 }
 
 /// The vertex of the first ring on line s.
@@ -335,16 +276,6 @@ fn schemes_differ_at_smooth_extraordinary_points_only() {
                 assert_eq!(cc.patch(p), other.patch(q));
             }
         }
-    }
-}
-
-/// Caps are for points that are smooth all around; elsewhere they say so.
-#[test]
-fn there_are_no_caps_on_sharp_edges() {
-    let surface = surface_of(&starred(6, &[0, 3], 17), SchemeKind::Qas4);
-    for point in 0..surface.extraordinary_points().len() {
-        let found = Cap::new(surface.rings(point), CapOptions::default());
-        assert_eq!(found.err(), Some(CapError::Fan));
     }
 }
 

@@ -208,7 +208,7 @@ fn triangles_have_one_value_per_side_of_a_seam() {
     let more = (14 - 8) + 7 * (rate - 1);
     assert_eq!(texture.values.len(), triangles.positions.len() + more);
     let mut text = Vec::new();
-    obj_out::write_textured(&triangles, &texture, &mut text).unwrap();
+    obj_out::write_textured(&triangles, &triangles.corner_channels(&surface), &mut text).unwrap();
     let read = obj::read(&text).unwrap().mesh;
     assert_eq!(read.primvars[0].indices, texture.corners.concat());
     let flat: Vec<f64> = texture.values.iter().flat_map(|value| value[..2].to_vec()).collect();

@@ -1,29 +1,44 @@
-//! Random cages with n-gons, boundaries, creases, corners and holes: whatever passes the checks gives
-//! a surface in every scheme, and the surface is C2 where it should be and without cracks.
+//! Random cages, closed and flat, with n-gons, boundaries, creases, corners and holes: whatever passes
+//! the checks gives a surface in every scheme, and the surface is C2 where it should be, without cracks,
+//! flat if the cage is, and its triangles are watertight.
 
 mod common;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use common::Random;
+use evenlight::analyse::caps::cap_report;
 use evenlight::analyse::continuity::continuity;
+use evenlight::cap::{CapKind, CapOptions};
 use evenlight::mesh::{BoundaryRule, Corner, Crease, CreaseMethod};
 use evenlight::surface::QuadId;
-use evenlight::tessellate::tessellate;
-use evenlight::{Cage, FaceId, Mesh, Point, SchemeKind, VertexId};
+use evenlight::tessellate::{TriangleMesh, tessellate};
+use evenlight::{Cage, FaceId, Mesh, Point, SchemeKind, Surface, VertexId};
 
 /// A mesh under random changes of its faces.
 #[derive(Clone)]
 struct Sculpture {
     positions: Vec<Point>,
     faces: Vec<Vec<u32>>,
+    is_flat: bool,
 }
 
 impl Sculpture {
-    fn torus() -> Self {
-        let mesh = common::torus(7, 5);
+    fn of(mesh: Mesh) -> Self {
         let faces = mesh.faces.iter().map(|f| f.iter().map(|v| v.0).collect()).collect();
-        Self { positions: mesh.positions, faces }
+        let is_flat = mesh.positions.iter().all(|p| p[2] == 0.0);
+        Self { positions: mesh.positions, faces, is_flat }
+    }
+
+    fn torus() -> Self {
+        Self::of(common::torus(7, 5))
+    }
+
+    fn sheet(random: &mut Random) -> Self {
+        let mut mesh = common::fans::sheet(6, 5, random);
+        mesh.positions.iter_mut().for_each(|p| p[2] = 0.0);
+        Self::of(mesh)
     }
 
     /// The cage with a random few of its edges and vertices sharp, and perhaps a hole.
@@ -127,14 +142,15 @@ impl Sculpture {
 
     fn jitter(&mut self, random: &mut Random) {
         let v = random.below(self.positions.len());
-        self.positions[v].iter_mut().for_each(|x| *x += random.unit() - 0.5);
+        let moved = if self.is_flat { 2 } else { 3 };
+        self.positions[v][..moved].iter_mut().for_each(|x| *x += random.unit() - 0.5);
     }
 }
 
 fn check(cage: &Arc<Cage>, seed: u64, schemes: &[SchemeKind]) {
     let mut random = Random::new(seed);
     for &scheme in schemes {
-        let surface = common::surface(cage, scheme);
+        let mut surface = common::surface(cage, scheme);
         for _ in 0..20 {
             if surface.num_quads() == 0 {
                 break;
@@ -148,16 +164,49 @@ fn check(cage: &Arc<Cage>, seed: u64, schemes: &[SchemeKind]) {
         let jumps = found.all;
         assert!(jumps.parametric < 1e-9, "seed {seed}, {}: {jumps:?}", scheme.name());
         assert!(found.creases.position < 1e-12, "seed {seed}: {:?}", found.creases);
-        let triangles = tessellate(&surface, 2).expect("few triangles");
-        assert!(triangles.positions.iter().flatten().all(|x| x.is_finite()));
+        is_watertight(&surface, seed);
+        if scheme == SchemeKind::Qas4 {
+            surface.set_caps(Some(CapOptions { rings: 1, kind: CapKind::Bi4 })).expect("they fit");
+            is_watertight(&surface, seed);
+            for cap in cap_report(&surface) {
+                for defect in [cap.lines, cap.inside, cap.ring] {
+                    assert!(defect.position < 1e-12, "seed {seed}: {cap:?}");
+                }
+            }
+        }
     }
+}
+
+/// The triangles join along all their edges but where the surface ends, and are flat over flat cages.
+fn is_watertight(surface: &Surface, seed: u64) {
+    let mesh: TriangleMesh = tessellate(surface, 2).expect("few triangles");
+    assert!(mesh.positions.iter().flatten().all(|x| x.is_finite()));
+    if surface.cage().positions().iter().all(|p| p[2] == 0.0) {
+        assert!(mesh.positions.iter().all(|p| p[2] == 0.0), "seed {seed}: not flat");
+    }
+    let mut edges: BTreeMap<[u32; 2], i32> = BTreeMap::new();
+    for [a, b, c] in mesh.triangles {
+        for edge in [[a, b], [b, c], [c, a]] {
+            *edges.entry(edge).or_default() += 1;
+        }
+    }
+    assert!(edges.values().all(|&count| count == 1), "seed {seed}: an edge twice in one direction");
+    let single = edges.keys().filter(|&&[a, b]| !edges.contains_key(&[b, a])).count();
+    let topology = surface.cage().topology();
+    let has_surface = |h| !surface.is_omitted(topology.face(h));
+    let ends = topology
+        .half_edges()
+        .filter(|&h| has_surface(h) && !topology.twin(h).is_some_and(has_surface));
+    assert_eq!(single, ends.count() * mesh.rate, "seed {seed}: open edges");
 }
 
 /// Sculptures of many changes, each step of which was a cage.
 fn sculpt(seeds: std::ops::Range<u64>) {
     for seed in seeds {
-        let (mut sculpture, mut random) = (Sculpture::torus(), Random::new(seed + 1));
-        let mut cage = sculpture.cage().expect("a torus is a cage");
+        let mut random = Random::new(seed + 1);
+        let mut sculpture =
+            if seed % 4 < 2 { Sculpture::torus() } else { Sculpture::sheet(&mut random) };
+        let mut cage = sculpture.cage().expect("a torus and a sheet are cages");
         for _ in 0..1 + random.below(40) {
             let mut changed = sculpture.clone();
             changed.change(&mut random);

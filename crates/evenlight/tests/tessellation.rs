@@ -269,6 +269,20 @@ fn vertices_of_valence_2_have_a_normal_too() {
     }
 }
 
+/// Two faces around a vertex have two edges in common, whose middles no diagonal joins.
+#[test]
+fn no_edge_is_one_of_four_triangles_at_valence_2() {
+    // A beak: vertex 0 is its tip, 0-1 and 0-2 are near each other.
+    let positions =
+        vec![[0.0; 3], [1.0, 0.2, 0.0], [1.0, -0.2, 0.0], [2.0, 0.0, 0.5], [2.0, 0.0, -0.5]];
+    let beak = Mesh::new(positions, [[0_u32, 1, 3, 2], [0, 2, 4, 1]]);
+    let surface = surface(beak, SchemeKind::CatmullClark);
+    for rate in [2, 4, 6] {
+        let mesh = tessellate(&surface, rate).unwrap();
+        assert!(directed_edges(&mesh).len() == 3 * mesh.triangles.len(), "rate {rate}");
+    }
+}
+
 #[test]
 fn extraordinary_points_are_vertices_with_the_limit_normal() {
     for (name, surface) in closed_surfaces() {

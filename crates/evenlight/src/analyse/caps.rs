@@ -11,9 +11,12 @@
 //!   |   |   |       |     lines they cross with a small angle; curvature jumps a little across
 //!   +---+---+-------+     lines and to the ring.
 //! ```
+//!
+//! Around fans between sharp edges the lines that count are those inside; across the line of a dart
+//! only the position does. Where the point has no tangent plane they meet in an angle.
 
 use super::curvature::{Range, RingCurvature, curvature_over};
-use crate::cap::Cap;
+use crate::cap::{Cap, Lines};
 use crate::parallel::map_indexed;
 use crate::patch::SurfacePoint;
 use crate::point::{cross, dot, norm, sub};
@@ -158,9 +161,14 @@ impl Around<'_> {
     }
 
     fn lines(self) -> Defect {
-        let behind = |s: usize| (s + self.rings.valence() - 1) % self.rings.valence();
-        let at = |s: usize, u: f64| jump(&self.eval(s, u, 0.0), &self.eval(behind(s), 0.0, u));
-        largest(self.sectors().flat_map(|s| self.along().map(move |u| at(s, u))))
+        let lines = Lines::of(self.rings.rules());
+        let at =
+            |s: usize, u: f64| jump(&self.eval(s, u, 0.0), &self.eval(lines.behind(s), 0.0, u));
+        let smooth = lines.smooth().flat_map(|s| self.along().map(move |u| at(s, u)));
+        let dart = lines.dart().into_iter().flat_map(|s| {
+            self.along().map(move |u| Defect { position: at(s, u).position, ..Defect::default() })
+        });
+        largest(smooth.chain(dart))
     }
 
     fn inside(self) -> Defect {

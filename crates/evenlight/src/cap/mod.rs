@@ -19,23 +19,29 @@
 //! follows the guide or bends least (module `rules`).
 //!
 //! If the patches of a ring are split themselves, a cap is split in the smallest multiple of that.
+//!
+//! All this is for points that are smooth all around. At boundaries, creases, corners and darts, and at
+//! valences 2, 4 and above [`MAX_VALENCE`], there is one bi-4 patch per sector (bi-3, if that is asked
+//! for), with first derivatives to the last ring, exact creases, and common tangent planes on the
+//! lines if the point has a tangent plane (module `plain`).
 
 mod border;
-mod dense;
 mod guide;
+mod plain;
 mod plane;
+mod round;
 mod rules;
 mod sector;
 mod spline;
 
-use crate::angle::{cosine, sine};
-use crate::patch::{Patch, SurfacePoint};
-use crate::point::{Vector, add_scaled, scale};
+use crate::dense;
+use crate::patch::kernel::patch_jet;
+use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::rings::{Rings, ValenceRules};
-use crate::scheme::{Rules, SchemeKind, guide_monomials};
-use border::Border;
-use rules::{CapRules, Shape, pieces};
-use sector::Complex;
+use crate::scheme::{Rules, SchemeKind};
+pub(crate) use plain::Lines;
+use plain::PlainCap;
+use round::RoundCap;
 use spline::Space;
 
 /// The degree of a cap's patches.
@@ -102,18 +108,10 @@ pub enum CapError {
         /// The patches along each side of a square of its rings.
         split: usize,
     },
-    /// No caps at points on a boundary or on sharp edges.
-    #[error("points on a boundary or on sharp edges have none")]
-    Fan,
-    /// No caps at this valence.
-    #[error("there are caps for valences 3 to {MAX_VALENCE} (not 4), not for {valence}")]
-    Valence {
-        /// The valence.
-        valence: usize,
-    },
 }
 
-/// The highest valence with caps: beyond it sectors are slivers, and the rules take seconds.
+/// The highest valence with caps of the kind asked for: beyond it sectors are slivers, the rules would
+/// take seconds, and caps are plain.
 pub const MAX_VALENCE: usize = 64;
 
 impl CapKind {
@@ -135,7 +133,6 @@ impl CapKind {
     pub fn of_scheme(scheme: SchemeKind) -> Self {
         match scheme {
             SchemeKind::Guided6 => Self::Bi6,
-            SchemeKind::Guided3 | SchemeKind::Guided4 => Self::Bi4,
             _ => Self::Bi5,
         }
     }
@@ -195,15 +192,10 @@ impl Cap {
     }
 
     pub(crate) fn with_rules(rings: &Rings, count: usize, rules: &ValenceCap) -> Self {
-        let net = rings.net(count);
-        let data = rules.data(rings, count, &net);
-        let center = rules.center(rings, &net);
-        let space = rules.cap.sector.space;
-        let patches = (0..rings.valence()).flat_map(|s| {
-            let coefs = rules.cap.coefs(s, &data, &center);
-            pieces(&rules.cap.sector, &coefs)
-        });
-        let patches = patches.map(|coefs| Patch::new([space.degree; 2], coefs)).collect();
+        let (space, patches) = match rules {
+            ValenceCap::Round(cap) => (cap.space(), cap.patches(rings, count)),
+            ValenceCap::Plain(cap) => (cap.space(), cap.patches(rings, count)),
+        };
         Self { rings: count, space, patches }
     }
 
@@ -243,158 +235,67 @@ impl Cap {
     /// the unit square; derivatives are by the sector's own parameters, as those of the rings.
     ///
     /// `rings` must be those that the cap was made for. At the centre the curvature is that of the
-    /// common quadratic.
+    /// common quadratic; around fans each sector has its own, and without a tangent plane there are
+    /// neither normal nor curvature (NaN).
     ///
     /// # Panics
     ///
     /// If `s` is not below the valence.
-    pub fn eval(&self, rings: &Rings, s: usize, [a, b]: [f64; 2]) -> SurfacePoint {
+    pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> SurfacePoint {
+        self.eval_as(rings, s, at)
+    }
+
+    /// [`Cap::eval`] of what is wanted alone.
+    pub(crate) fn eval_as<A: Answer>(&self, rings: &Rings, s: usize, [a, b]: [f64; 2]) -> A {
         let m = self.space.pieces;
         let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
-        self.eval_on(rings, s, part(a) * m + part(b), [a, b])
+        let which = part(a) * m + part(b);
+        if a.max(b) == 0.0 && rings.normal()[0].is_nan() {
+            let jet: Jet = self.eval_in_patch(rings, s, which, [a, b]);
+            let (normal, none) = ([f64::NAN; 3], f64::NAN);
+            return A::from_parts(jet, |_| Shape { normal, gauss: none, mean: none });
+        }
+        self.eval_in_patch(rings, s, which, [a, b])
     }
 
     /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it.
-    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, [a, b]: [f64; 2]) -> SurfacePoint {
+    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, at: [f64; 2]) -> SurfacePoint {
+        self.eval_in_patch(rings, s, which, at)
+    }
+
+    fn eval_in_patch<A: Answer>(
+        &self,
+        rings: &Rings,
+        s: usize,
+        which: usize,
+        [a, b]: [f64; 2],
+    ) -> A {
         let [[a0, _], [b0, _]] = self.patch_domain(which);
         let m = self.space.pieces as f64;
-        let patch = &self.patches[s * self.patches_per_sector() + which];
-        rings.in_world(self.rings, [1.0 / m; 2], &patch.jet((a - a0) * m, (b - b0) * m))
+        let coefs = self.patches[s * self.patches_per_sector() + which].coefs();
+        let at = [(a - a0) * m, (b - b0) * m];
+        let jet = patch_jet(A::ORDER, self.space.degree, coefs, at);
+        rings.in_world(self.rings, [1.0 / m; 2], &jet)
     }
 }
 
-/// The rules of the caps of a scheme at one valence.
+/// The rules of the caps of a scheme at one valence or fan.
 #[derive(Clone, Debug)]
-pub(crate) struct ValenceCap {
-    border: Border,
-    cap: CapRules,
-    /// chi over the coordinate of the plane: chi = kappa zeta.
-    kappa: Complex,
+pub(crate) enum ValenceCap {
+    Round(Box<RoundCap>),
+    Plain(Box<PlainCap>),
 }
 
 impl ValenceCap {
     pub(crate) fn new(rules: &ValenceRules, kind: CapKind) -> Result<Self, CapError> {
-        if rules.is_fan() {
-            return Err(CapError::Fan);
+        if plain::is_plain(rules) {
+            return Ok(Self::Plain(Box::new(PlainCap::new(rules, kind))));
         }
-        let (scheme, rules, subdominant) = (rules.kind(), rules.rules(), rules.subdominant());
-        let valence = rules.valence;
-        if valence == 4 || !(3..=MAX_VALENCE).contains(&valence) {
-            return Err(CapError::Valence { valence });
-        }
-        kind.check(scheme)?;
-        let space = kind.space(scheme, rules.split);
-        if rules.cuts().is_some() && rules.split > 1 {
-            return Err(CapError::Contraction { scheme });
-        }
-        if !cuts_fit(rules, space) {
-            return Err(CapError::Cuts { scheme, split: rules.split });
-        }
-        let net = subdominant.characteristic_net();
-        let refined = rules.refine(&net);
-        let ring: Vec<Vec<Vector>> = (0..rules.patches_per_sector())
-            .map(|which| rules.patch(0, which, &net, &refined))
-            .collect();
-        let kappa = kappa(rules, &ring);
-        let size = kappa[0] * kappa[0] + kappa[1] * kappa[1];
-        let zeta = |[x, y, _]: Vector| {
-            [(x * kappa[0] + y * kappa[1]) / size, (y * kappa[0] - x * kappa[1]) / size]
-        };
-        let border = |space: Space| Border::new(rules.degree, &domains(rules), space);
-        let chi = |space: Space| border(space).data(&ring).into_iter().map(zeta).collect();
-        let shape = match (&rules.guide, &rules.quadratic) {
-            (Some(_), _) => Shape::Guide(size.sqrt()),
-            (_, Some(_)) => Shape::Quadratic,
-            _ => Shape::Fair,
-        };
-        let cap = CapRules::new(valence, space, shape, chi);
-        Ok(Self { border: border(space), cap, kappa })
+        Ok(Self::Round(Box::new(RoundCap::new(rules, kind)?)))
     }
-
-    /// The data of all sectors for a hole behind `count` rings.
-    fn data(&self, rings: &Rings, count: usize, net: &[Vector]) -> Vec<Vector> {
-        let rules = rings.rules().rules();
-        let ring = rings.frame_patches(count);
-        let nodes = net.chunks(rules.nodes_per_sector);
-        let sectors = ring.chunks(rules.patches_per_sector()).zip(nodes);
-        let mut data = Vec::new();
-        for (patches, nodes) in sectors {
-            let coefs: Vec<Vec<Vector>> = patches.iter().map(|p| p.coefs().to_vec()).collect();
-            data.extend(self.border.data(&coefs));
-            if rules.guide.is_some() {
-                let first = rules.control_nodes_per_sector();
-                data.extend(&nodes[first..first + guide_monomials().len()]);
-            }
-        }
-        data
-    }
-
-    /// What is given at the centre, as weights of x, y, x^2 + y^2, Re (x + iy)^2, Im (x + iy)^2.
-    fn center(&self, rings: &Rings, net: &[Vector]) -> [Vector; rules::PLANE_FUNCTIONS] {
-        let (rules, subdominant) = (rings.rules().rules(), rings.rules().subdominant());
-        let [along_x, along_y] = subdominant.tangential(net);
-        let [x, y] = self.kappa;
-        let sum = |v: f64, w: f64| {
-            let mut sum = scale(v, along_x);
-            add_scaled(&mut sum, w, along_y);
-            sum
-        };
-        let (linear, zero) = ([sum(x, y), sum(-y, x)], [0.0; 3]);
-        let [radius, real, imaginary] = if rules.lambda_of_linear_terms().is_some() {
-            let first = rules.control_nodes_per_sector() + 2;
-            let terms = [net[first], net[first + 1], net[first + 2]];
-            second_order(rules.valence, x * x + y * y, terms)
-        } else {
-            [zero; 3]
-        };
-        [linear[0], linear[1], radius, real, imaginary]
-    }
-}
-
-/// Whether a cap has joints wherever the inner border of a ring has.
-fn cuts_fit(rules: &Rules, space: Space) -> bool {
-    let fits = |[_, [b0, b1]]: [[f64; 2]; 2]| {
-        let at = b0 / rules.sigma() * space.pieces as f64;
-        b1 > rules.sigma() + 1e-9 || (at - at.round()).abs() < 1e-9
-    };
-    domains(rules).into_iter().all(fits)
 }
 
 /// The parts of a sector that the patches of ring 0 cover.
 fn domains(rules: &Rules) -> Vec<[[f64; 2]; 2]> {
     (0..rules.patches_per_sector()).map(|which| rules.patch_domain(which)).collect()
-}
-
-/// chi(1,0) turned by half a sector: chi over a coordinate whose real axis is the bisectrix of sector
-/// 0 and in which chi(1,0) has distance 1. `ring` is sector 0 of the characteristic ring.
-fn kappa(rules: &Rules, ring: &[Vec<Vector>]) -> Complex {
-    let at_corner = domains(rules).iter().position(|[a, b]| a[1] > 1.0 - 1e-9 && b[0] == 0.0);
-    let which = at_corner.expect("a ring reaches to a = 1 on its line");
-    let [x, y, _] = ring[which][rules.degree * (rules.degree + 1)];
-    let half = std::f64::consts::PI / rules.valence as f64;
-    let (c, s) = (cosine(half), sine(half));
-    [x * c - y * s, x * s + y * c]
-}
-
-/// gamma u^2 + delta u v + epsilon v^2 in sector 0, whose lines have unit length in coordinates
-/// `size` = |kappa|^2 of ours, as weights of x^2 + y^2, Re (x + iy)^2, Im (x + iy)^2.
-fn second_order(n: usize, size: f64, [gamma, delta, epsilon]: [Vector; 3]) -> [Vector; 3] {
-    let half = std::f64::consts::PI / n as f64;
-    // u = x / (2c) - y / (2s), v = x / (2c) + y / (2s)
-    let (c, s) = (cosine(half), sine(half));
-    let xx = size / (4.0 * c * c);
-    let yy = size / (4.0 * s * s);
-    let xy = size / (2.0 * c * s);
-    std::array::from_fn(|k| {
-        let combination = |k: usize, at: usize| {
-            let (outer, inner) = (gamma[at] + epsilon[at], delta[at]);
-            let (p, r) = (xx * (outer + inner), yy * (outer - inner));
-            match k {
-                0 => 0.5 * (p + r),
-                1 => 0.5 * (p - r),
-                _ => 0.5 * xy * (epsilon[at] - gamma[at]),
-            }
-        };
-        [0, 1, 2].map(|at| combination(k, at))
-    })
 }

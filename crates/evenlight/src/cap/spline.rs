@@ -25,6 +25,11 @@ pub(super) struct Space {
 }
 
 impl Space {
+    /// One polynomial.
+    pub(super) fn polynomials(degree: usize) -> Self {
+        Self { degree, pieces: 1, smooth: degree - 1 }
+    }
+
     /// The dimension.
     pub(super) fn dim(self) -> usize {
         self.degree + 1 + (self.pieces - 1) * (self.degree - self.smooth)

@@ -1,9 +1,9 @@
-//! Triangle meshes as binary glTF 2.0, with normals and curvatures.
+//! Triangle meshes as binary glTF 2.0, with normals, curvatures, texture coordinates and a colour.
 //!
 //! ```text
 //! "glTF" 2 LENGTH                       12 bytes, like all of it little endian
 //! LENGTH "JSON" { what is where }       padded with blanks to 4 bytes
-//! LENGTH "BIN\0"                        positions, normals, K, H of all vertices, then triangles
+//! LENGTH "BIN\0"                        each attribute of all vertices, then triangles
 //! ```
 //!
 //! | attribute | type | |
@@ -12,17 +12,24 @@
 //! | `NORMAL` | 3 floats | unit normal of the surface |
 //! | `_GAUSS_CURVATURE` | float | K in 1/length^2 |
 //! | `_MEAN_CURVATURE` | float | H in 1/length; negative on convex bodies |
+//! | `TEXCOORD_0`, `TEXCOORD_1`, ... | 2 floats | (u, 1 - v): the origin of images is their upper left corner, ours is the lower left one |
+//! | `COLOR_0` | 3 or 4 floats | cut to 0..1, as the format demands; it takes them as linear light |
 //!
-//! The format knows no values that do not exist: in their place stand the normal (0, 0, 1) and
-//! the curvature 0. All numbers are rounded to 32 bits, the positions of a vertex alike in all its
-//! triangles.
+//! A vertex of the format has one value of each attribute. Vertices are therefore split along
+//! infinitely sharp edges and the seams of channels ([`TriangleMesh::split`]), and welding them by
+//! position gives the watertight mesh: positions are rounded alike in all triangles of a vertex.
+//!
+//! The format knows no values that do not exist: in their place stand the normal (0, 0, 1) and 0.
+//! All numbers are rounded to 32 bits. The material is plain and no metal, which the format's own
+//! default is.
 
 use std::io::{self, Write};
 
 use crate::point::Vector;
-use crate::tessellate::TriangleMesh;
+use crate::tessellate::{CornerChannels, CornerValues, SplitVertices, TriangleMesh};
 
-/// Writes `mesh` as a binary glTF file. Writes many small pieces: give it something with a buffer.
+/// Writes `mesh` as a binary glTF file, without texture coordinates and colours. Writes many small
+/// pieces: give it something with a buffer.
 ///
 /// # Errors
 ///
@@ -30,8 +37,26 @@ use crate::tessellate::TriangleMesh;
 /// triangles, for one that takes 2^32 bytes or more, and for a position that does not fit into 32
 /// bits.
 pub fn write(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
-    let bin_len = sections(mesh).iter().map(|section| section.len).sum::<usize>();
-    let json = json(mesh)?;
+    write_textured(mesh, &CornerChannels::default(), out)
+}
+
+/// Writes `mesh` as [`write()`] does, with its channels ([`TriangleMesh::corner_channels`]).
+///
+/// # Errors
+///
+/// Those of [`write()`]; and `InvalidInput` for channels that are not of this mesh.
+pub fn write_textured(
+    mesh: &TriangleMesh,
+    channels: &CornerChannels,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let all: Vec<&CornerValues> = channels.uv_sets.iter().chain(&channels.color).collect();
+    check_channels(mesh, &all)?;
+    let bounds = bounds(mesh)?;
+    let vertices = Vertices::of(mesh, &all);
+    let sections = sections(channels, &vertices);
+    let bin_len = sections.iter().map(Section::len).sum::<usize>();
+    let json = json(&sections, bounds);
     let total = 12 + 8 + json.len() + 8 + bin_len;
     let [total, json_len, bin_len] =
         [total, json.len(), bin_len].map(|len| u32::try_from(len).unwrap_or(u32::MAX));
@@ -46,49 +71,100 @@ pub fn write(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
     out.write_all(json.as_bytes())?;
     out.write_all(&bin_len.to_le_bytes())?;
     out.write_all(b"BIN\0")?;
-    write_values(mesh, out)
+    write_shape(mesh, &vertices, out)?;
+    write_channels(channels, &vertices, out)?;
+    vertices.triangles().iter().flatten().try_for_each(|v| out.write_all(&v.to_le_bytes()))
 }
 
-/// A run of bytes with values of one kind.
+/// The vertices of the file.
+enum Vertices<'a> {
+    /// The sides of a mesh without channels: nothing needs to be copied.
+    Sides(&'a TriangleMesh),
+    Split(SplitVertices),
+}
+
+impl<'a> Vertices<'a> {
+    fn of(mesh: &'a TriangleMesh, channels: &[&CornerValues]) -> Self {
+        if channels.is_empty() { Self::Sides(mesh) } else { Self::Split(mesh.split(channels)) }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Sides(mesh) => mesh.normals.len(),
+            Self::Split(split) => split.sides.len(),
+        }
+    }
+
+    fn triangles(&self) -> &[[u32; 3]] {
+        match self {
+            Self::Sides(mesh) => mesh.sides(),
+            Self::Split(split) => &split.triangles,
+        }
+    }
+
+    /// The side of each vertex.
+    fn sides(&self) -> impl Iterator<Item = u32> {
+        (0..self.len()).map(|v| match self {
+            Self::Sides(_) => v as u32,
+            Self::Split(split) => split.sides[v],
+        })
+    }
+
+    /// For each channel the number of the value of each vertex.
+    fn values(&self) -> &[Vec<u32>] {
+        match self {
+            Self::Sides(_) => &[],
+            Self::Split(split) => &split.values,
+        }
+    }
+}
+
+/// A run of bytes with values of one kind, of 4 bytes each.
 struct Section {
     /// The attribute; empty for the corners of triangles.
-    name: &'static str,
-    /// As in `VEC3`.
-    kind: &'static str,
+    name: String,
+    /// The numbers in a value.
+    width: usize,
     /// How many values there are.
     count: usize,
-    /// The number of bytes, a multiple of 4.
-    len: usize,
+}
+
+impl Section {
+    /// The number of bytes.
+    fn len(&self) -> usize {
+        4 * self.width * self.count
+    }
 }
 
 /// What is behind each other in the binary part.
-fn sections(mesh: &TriangleMesh) -> [Section; 5] {
-    let n = mesh.positions.len();
-    let section = |name, kind, count: usize, width: usize| Section {
-        name,
-        kind,
-        count,
-        len: 4 * width * count,
-    };
-    [
-        section("POSITION", "VEC3", n, 3),
-        section("NORMAL", "VEC3", n, 3),
-        section("_GAUSS_CURVATURE", "SCALAR", n, 1),
-        section("_MEAN_CURVATURE", "SCALAR", n, 1),
-        section("", "SCALAR", 3 * mesh.triangles.len(), 1),
-    ]
+fn sections(channels: &CornerChannels, vertices: &Vertices) -> Vec<Section> {
+    let shape = [("POSITION", 3), ("NORMAL", 3), ("_GAUSS_CURVATURE", 1), ("_MEAN_CURVATURE", 1)];
+    let shape = shape.into_iter().map(|(name, width)| (name.to_owned(), width));
+    let uvs = (0..channels.uv_sets.len()).map(|k| (format!("TEXCOORD_{k}"), 2));
+    let color = channels.color.iter().map(|color| ("COLOR_0".to_owned(), color_width(color)));
+    let attributes = shape.chain(uvs).chain(color);
+    let section = |(name, width)| Section { name, width, count: vertices.len() };
+    let corners = Section { name: String::new(), width: 1, count: 3 * vertices.triangles().len() };
+    attributes.map(section).chain([corners]).collect()
+}
+
+/// The format has colours of three or four numbers.
+fn color_width(color: &CornerValues) -> usize {
+    color.width.clamp(3, 4)
 }
 
 /// The description of the binary part, padded.
-fn json(mesh: &TriangleMesh) -> io::Result<String> {
+fn json(sections: &[Section], [low, high]: [[f32; 3]; 2]) -> String {
     const FLOAT: u32 = 5126;
     const UNSIGNED_INT: u32 = 5125;
     const ARRAY_BUFFER: u32 = 34962;
     const ELEMENT_ARRAY_BUFFER: u32 = 34963;
-    let [low, high] = bounds(mesh)?;
+    const KINDS: [&str; 4] = ["SCALAR", "VEC2", "VEC3", "VEC4"];
     let (mut views, mut accessors, mut attributes) = (vec![], vec![], vec![]);
     let mut offset = 0;
-    for (k, Section { name, kind, count, len }) in sections(mesh).into_iter().enumerate() {
+    for (k, section) in sections.iter().enumerate() {
+        let (name, len, count) = (&section.name, section.len(), section.count);
+        let kind = KINDS[section.width - 1];
         let is_index = name.is_empty();
         let (target, scalar) =
             if is_index { (ELEMENT_ARRAY_BUFFER, UNSIGNED_INT) } else { (ARRAY_BUFFER, FLOAT) };
@@ -106,14 +182,29 @@ fn json(mesh: &TriangleMesh) -> io::Result<String> {
         offset += len;
     }
     let mut json = format!(
-        r#"{{"asset":{{"version":"2.0","generator":"Evenlight"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{{}}},"indices":{},"mode":4}}]}}],"buffers":[{{"byteLength":{offset}}}],"bufferViews":[{}],"accessors":[{}]}}"#,
+        r#"{{"asset":{{"version":"2.0","generator":"Evenlight"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{{}}},"indices":{},"mode":4,"material":0}}]}}],"materials":[{{"pbrMetallicRoughness":{{"metallicFactor":0,"roughnessFactor":0.5}}}}],"buffers":[{{"byteLength":{offset}}}],"bufferViews":[{}],"accessors":[{}]}}"#,
         attributes.join(","),
         attributes.len(),
         views.join(","),
         accessors.join(",")
     );
     json.push_str(&"   "[..(4 - json.len() % 4) % 4]);
-    Ok(json)
+    json
+}
+
+/// Whether every corner of every triangle has a value.
+fn check_channels(mesh: &TriangleMesh, channels: &[&CornerValues]) -> io::Result<()> {
+    let fits = |channel: &&CornerValues| {
+        let corners = channel.corners.as_flattened();
+        channel.corners.len() == mesh.triangles.len()
+            && corners.iter().all(|&value| (value as usize) < channel.values.len())
+    };
+    match channels.iter().find(|channel| !fits(channel)) {
+        Some(channel) => {
+            Err(invalid(&format!("the channel `{}` is not of this mesh", channel.name)))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The lowest and the highest coordinates as they are written, which the format demands.
@@ -136,16 +227,49 @@ fn bounds(mesh: &TriangleMesh) -> io::Result<[[f32; 3]; 2]> {
     Ok(bounds)
 }
 
-fn write_values(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
+fn write_shape(mesh: &TriangleMesh, vertices: &Vertices, out: &mut impl Write) -> io::Result<()> {
     let mut float = |x: f64| out.write_all(&(x as f32).to_le_bytes());
-    mesh.positions.iter().flatten().try_for_each(|&x| float(x))?;
-    for &normal in &mesh.normals {
-        existing_normal(normal).iter().try_for_each(|&x| float(x))?;
+    for side in vertices.sides() {
+        let position = mesh.positions[mesh.vertex_of_side(side) as usize];
+        position.iter().try_for_each(|&x| float(x))?;
     }
-    for &curvature in mesh.gauss.iter().chain(&mesh.mean) {
-        float(if (curvature as f32).is_finite() { curvature } else { 0.0 })?;
+    for side in vertices.sides() {
+        let normal = existing_normal(mesh.normals[side as usize]);
+        normal.iter().try_for_each(|&x| float(x))?;
     }
-    mesh.triangles.iter().flatten().try_for_each(|v| out.write_all(&v.to_le_bytes()))
+    for curvature in [&mesh.gauss, &mesh.mean] {
+        vertices.sides().try_for_each(|side| float(existing(curvature[side as usize])))?;
+    }
+    Ok(())
+}
+
+/// Writes texture coordinates and the colour: the channels in the order in which the mesh was
+/// split.
+fn write_channels(
+    channels: &CornerChannels,
+    vertices: &Vertices,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let mut float = |x: f64| out.write_all(&(existing(x) as f32).to_le_bytes());
+    let mut numbers = vertices.values().iter();
+    for (uvs, numbers) in channels.uv_sets.iter().zip(&mut numbers) {
+        for &number in numbers {
+            let [u, v, ..] = uvs.values[number as usize];
+            [u, 1.0 - v].into_iter().try_for_each(&mut float)?;
+        }
+    }
+    for (color, numbers) in channels.color.iter().zip(&mut numbers) {
+        for &number in numbers {
+            let light = color.values[number as usize].map(|x| x.clamp(0.0, 1.0));
+            light.into_iter().take(color_width(color)).try_for_each(&mut float)?;
+        }
+    }
+    Ok(())
+}
+
+/// `x`, or 0 if it does not exist in 32 bits.
+fn existing(x: f64) -> f64 {
+    if (x as f32).is_finite() { x } else { 0.0 }
 }
 
 fn existing_normal(normal: Vector) -> Vector {

@@ -82,8 +82,12 @@ impl RegularNet {
     }
 
     /// The control points, from the positions of the net's level.
+    #[inline]
     pub(crate) fn points(&self, positions: &[Point]) -> [Point; 16] {
-        let mut points = self.vertices.map(|v| positions[v.index()]);
+        let mut points = [[0.0; 3]; 16];
+        for (p, v) in points.iter_mut().zip(&self.vertices) {
+            *p = positions[v.index()];
+        }
         if self.sharp_sides != 0 {
             self.mirror(&mut points);
         }
@@ -92,6 +96,7 @@ impl RegularNet {
 
     /// Enters the nodes beyond sharp edges. With p(-1) = 2 p(0) - p(1) the second derivative
     /// across the edge is zero there, which is what refining with the crease rule leads to.
+    #[cold]
     fn mirror(&self, p: &mut [Point; 16]) {
         let is_sharp = |k: usize| self.sharp_sides >> k & 1 == 1;
         let mut extend = |to: usize, from: usize, next: usize| {

@@ -117,3 +117,22 @@ pub struct Primvar {
     /// of the vertices.
     pub indices: Vec<u32>,
 }
+
+impl Primvar {
+    /// Whether files of triangles take this for texture coordinates: it has two numbers, or three
+    /// and a name of texture coordinates.
+    pub fn is_uv_set(&self) -> bool {
+        self.width == 2 || (self.width == 3 && self.has_uv_name())
+    }
+
+    /// Whether it is named as texture coordinates are: `st` or `uv`.
+    pub fn has_uv_name(&self) -> bool {
+        matches!(self.name.as_str(), "st" | "uv")
+    }
+
+    /// Whether files take this for a colour: three numbers, or four with the opacity, under the name
+    /// `color` (of OBJ and PLY) or `displayColor` (of USD).
+    pub fn is_color(&self) -> bool {
+        matches!(self.width, 3 | 4) && matches!(self.name.as_str(), "color" | "displayColor")
+    }
+}

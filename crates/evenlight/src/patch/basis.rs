@@ -52,16 +52,19 @@ fn at(b: &[f64], i: usize, back: usize) -> f64 {
 }
 
 /// The four uniform cubic B-splines that are alive on 0 <= t <= 1: values and derivatives.
+#[inline]
 pub fn cubic_b_spline(t: f64) -> BasisJet<4> {
+    const SIXTH: f64 = 1.0 / 6.0;
     let s = 1.0 - t;
+    let (ss, tt) = (s * s, t * t);
     [
         [
-            s * s * s / 6.0,
-            (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
-            (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0,
-            t * t * t / 6.0,
+            SIXTH * (s * ss),
+            SIXTH * (4.0 - 6.0 * tt + 3.0 * (t * tt)),
+            SIXTH * (4.0 - 6.0 * ss + 3.0 * (s * ss)),
+            SIXTH * (t * tt),
         ],
-        [-s * s / 2.0, (-4.0 * t + 3.0 * t * t) / 2.0, (4.0 * s - 3.0 * s * s) / 2.0, t * t / 2.0],
+        [-0.5 * ss, 1.5 * tt - 2.0 * t, 2.0 * s - 1.5 * ss, 0.5 * tt],
         [s, 3.0 * t - 2.0, 3.0 * s - 2.0, t],
     ]
 }

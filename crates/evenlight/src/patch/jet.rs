@@ -1,7 +1,7 @@
 //! Position and derivatives at a point of a surface, and what follows from them.
 
 use super::basis::BasisJet;
-use crate::point::{Point, Vector, add_scaled, cross, dot, norm, scale, unit};
+use crate::point::{Point, Vector, add_scaled, cross, dot, scale, unit};
 
 /// Position and the derivatives up to order two of a map (u,v) -> space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,7 +57,7 @@ impl Jet {
 
     /// The unit normal du x dv; NaN where the derivatives are parallel or zero.
     pub fn normal(&self) -> Vector {
-        unit(cross(self.du, self.dv))
+        direction(cross(self.du, self.dv)).0
     }
 
     /// Gauss and mean curvature (K, H); NaN where the derivatives are parallel or zero.
@@ -75,13 +75,77 @@ impl Jet {
     /// assert_eq!(jet.curvature(), (4.0, 2.0));
     /// ```
     pub fn curvature(&self) -> (f64, f64) {
-        let area = cross(self.du, self.dv);
-        let w = norm(area);
-        let (e, f, g) = (dot(self.du, self.du), dot(self.du, self.dv), dot(self.dv, self.dv));
-        let (l, m, n) = (dot(self.duu, area) / w, dot(self.duv, area) / w, dot(self.dvv, area) / w);
-        let w2 = w * w;
-        ((l * n - m * m) / w2, (e * n - 2.0 * f * m + g * l) / (2.0 * w2))
+        let Shape { gauss, mean, .. } = self.shape();
+        (gauss, mean)
     }
+
+    /// The unit normal and the curvatures; NaN where the derivatives are parallel or zero.
+    #[inline]
+    pub(crate) fn shape(&self) -> Shape {
+        let area = cross(self.du, self.dv);
+        Shape::new(self.du, self.dv, [self.duu, self.duv, self.dvv].map(|r| dot(area, r)))
+    }
+}
+
+/// Position and first derivatives of a map (u,v) -> space.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FirstJet {
+    /// The position.
+    pub p: Point,
+    /// The derivative in u.
+    pub du: Vector,
+    /// The derivative in v.
+    pub dv: Vector,
+}
+
+impl FirstJet {
+    /// The unit normal du x dv; NaN where the derivatives are parallel or zero.
+    ///
+    /// ```
+    /// use evenlight::patch::FirstJet;
+    ///
+    /// let jet = FirstJet { p: [0.0; 3], du: [2., 0., 0.], dv: [1., 3., 0.] };
+    /// assert_eq!(jet.normal(), [0.0, 0.0, 1.0]);
+    /// ```
+    pub fn normal(&self) -> Vector {
+        direction(cross(self.du, self.dv)).0
+    }
+}
+
+/// The unit normal, and Gauss and mean curvature (K, H).
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// The unit normal.
+    pub normal: Vector,
+    /// K.
+    pub gauss: f64,
+    /// H.
+    pub mean: f64,
+}
+
+impl Shape {
+    /// From r_u, r_v and the determinants det(r_u, r_v, r_uu), with r_uv and r_vv.
+    #[inline]
+    pub(crate) fn new(ru: Vector, rv: Vector, determinants: [f64; 3]) -> Self {
+        let (normal, inverse) = direction(cross(ru, rv));
+        let (e, f, g) = (dot(ru, ru), dot(ru, rv), dot(rv, rv));
+        let [l, m, n] = determinants.map(|d| d * inverse);
+        let inverse_sq = inverse * inverse;
+        let gauss = (l * n - m * m) * inverse_sq;
+        let mean = 0.5 * (e * n - 2.0 * f * m + g * l) * inverse_sq;
+        Self { normal, gauss, mean }
+    }
+}
+
+/// `a` at length one, and one divided by its length.
+#[inline]
+fn direction(a: Vector) -> (Vector, f64) {
+    /// Squares of lengths far from the ends of the range of `f64`, where they are exact to
+    /// rounding.
+    const SAFE: std::ops::Range<f64> = 1e-250..1e250;
+    let square = dot(a, a);
+    let inverse = 1.0 / square.sqrt();
+    (if SAFE.contains(&square) { scale(inverse, a) } else { unit(a) }, inverse)
 }
 
 /// The sums of values, first and second derivatives of the first `count` basis functions times
@@ -129,7 +193,7 @@ impl SurfacePoint {
 
 impl From<Jet> for SurfacePoint {
     fn from(jet: Jet) -> Self {
-        let (gauss, mean) = jet.curvature();
-        Self { jet, normal: jet.normal(), gauss, mean }
+        let Shape { normal, gauss, mean } = jet.shape();
+        Self { jet, normal, gauss, mean }
     }
 }

@@ -16,10 +16,15 @@
 //!   +-------------> u
 //! ```
 
+mod answer;
 pub mod basis;
 mod jet;
+pub(crate) mod kernel;
 
-pub use jet::{Jet, SurfacePoint};
+pub use answer::Answer;
+pub(crate) use answer::Parts;
+pub(crate) use jet::Shape;
+pub use jet::{FirstJet, Jet, SurfacePoint};
 
 use crate::point::Point;
 

@@ -32,6 +32,7 @@ use crate::point::{Point, Vector, add_scaled, cross, dot, norm, sub, unit};
 /// The limit point of a fan and its tangent plane.
 #[derive(Clone, Debug)]
 pub(crate) struct FanLimit {
+    shape: Fan,
     /// The factor by which nets shrink in each step, in the long run.
     pub(crate) lambda: f64,
     /// The limit point of a net, the node c being the last.
@@ -74,10 +75,36 @@ pub(crate) fn rules(shape: Fan) -> (Rules, FanLimit) {
         quadratic: None,
         guide: None,
     };
-    (rules, FanLimit { lambda, point: net.limit.into_iter().collect(), tangents })
+    (rules, FanLimit { shape, lambda, point: net.limit.into_iter().collect(), tangents })
 }
 
 impl FanLimit {
+    pub(crate) fn shape(&self) -> Fan {
+        self.shape
+    }
+
+    /// The rows of the two directions that span the tangent plane, c being the last node, the first
+    /// along the crease if there is one; `None` if there are none such.
+    pub(crate) fn tangent_rows(&self) -> Option<&[Row; 2]> {
+        match &self.tangents {
+            Tangents::Rows(rows) => Some(rows),
+            Tangents::None | Tangents::Tip => None,
+        }
+    }
+
+    /// A net without c relative to its limit point, with c.
+    pub(crate) fn with_vertex(&self, nodes: &[Vector]) -> Vec<Vector> {
+        let (mut sum, mut own) = ([0.0; 3], 1.0);
+        for &(k, w) in &self.point {
+            match nodes.get(k) {
+                Some(&p) => add_scaled(&mut sum, -w, p),
+                None => own = w,
+            }
+        }
+        let vertex = sum.map(|x| x / own);
+        nodes.iter().copied().chain([vertex]).collect()
+    }
+
     /// The limit point of a net, c being its last node.
     pub(crate) fn limit_point(&self, net: &[Point]) -> Point {
         let mut sum = net[net.len() - 1];

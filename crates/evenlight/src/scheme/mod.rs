@@ -17,7 +17,7 @@ mod tables;
 pub use contraction::{Contraction, ContractionError, Variant};
 pub(crate) use fan::{FanLimit, rules as fan_rules};
 pub(crate) use guided::{guide_monomials, sampled_guide};
-pub(crate) use rules::Rules;
+pub(crate) use rules::{PatchParameters, Row, Rules};
 pub(crate) use subdominant::Subdominant;
 
 use crate::net::{CNet, DNet, Spline};

@@ -14,8 +14,8 @@
 //! The maps commute with turning by one sector, so a row is written for sector 0 only.
 
 use crate::angle::sector_cosine;
-use crate::net::{CNET_NODES, CNet, Expansion, NodeRef, turned};
-use crate::point::{add, add_scaled};
+use crate::net::{self, CNET_NODES, CNet, Expansion, NodeRef};
+use crate::point::add_scaled;
 
 /// One row of a linear map: weights of nodes, written for sector 0.
 ///
@@ -108,6 +108,26 @@ struct Side {
     size: f64,
 }
 
+/// A place in a patch of the outermost ring.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PatchParameters {
+    /// The number of the patch in its sector.
+    pub(crate) which: usize,
+    /// The patch's own parameters.
+    pub(crate) at: [f64; 2],
+    /// The size of the patch in a and b.
+    pub(crate) size: [f64; 2],
+}
+
+/// A place along one parameter of a square of a ring: the number of the patch across the square,
+/// the patch's own parameter and its size.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PartParameter {
+    pub(crate) part: usize,
+    pub(crate) at: f64,
+    pub(crate) size: f64,
+}
+
 /// How a patch is made of the net and its refinement.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PatchRule {
@@ -165,8 +185,7 @@ impl Rules {
 
     /// The default q of a control net; `None` for schemes without q.
     pub(crate) fn default_quadratic(&self, net: &[[f64; 3]]) -> Option<Expansion> {
-        let turned = Turned { net, by: 0 };
-        self.quadratic.as_ref().map(|part| part.from_net.each_ref().map(|row| turned.apply(row)))
+        self.quadratic.as_ref().map(|part| part.from_net.each_ref().map(|row| weighted(row, net)))
     }
 
     /// The control net with the nodes of q, given in sector 0.
@@ -177,7 +196,7 @@ impl Rules {
         for sector in net.chunks(self.control_nodes_per_sector()) {
             all.extend(sector);
             all.extend(q);
-            q = turned(c, q);
+            q = net::turned(c, q);
         }
         all
     }
@@ -186,8 +205,8 @@ impl Rules {
     pub(crate) fn refine(&self, net: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut refined = Vec::with_capacity(net.len());
         for s in 0..self.turns() {
-            let turned = Turned { net, by: s * self.nodes_per_sector };
-            refined.extend(self.refine.iter().map(|row| turned.apply(row)));
+            let seen = turned(net, s * self.nodes_per_sector);
+            refined.extend(self.refine.iter().map(|row| weighted(row, &seen)));
         }
         refined
     }
@@ -241,25 +260,46 @@ impl Rules {
     }
 
     /// The patch of the outermost ring that has (a,b), sigma < max(a,b) <= 1 up to rounding.
-    pub(crate) fn patch_at(&self, [a, b]: [f64; 2]) -> usize {
-        let sigma = self.sigma();
-        let square = match (a > sigma, b > sigma) {
-            (true, true) => 0,
-            (true, false) => 1,
-            _ => 2,
-        };
-        let part = |x: f64, k: usize| match self.cuts() {
-            None => {
-                let inside = (x - SQUARES[square][k]) * 2.0 * self.split as f64;
-                (inside.ceil() as usize).saturating_sub(1)
-            }
-            Some(Cuts { lines, .. }) => {
-                let first = self.first_line(square, k);
-                let inner = &lines[first + 1..first + self.split];
-                inner.iter().filter(|&&line| x > line).count()
-            }
-        };
-        square * self.split * self.split + part(a, 0) * self.split + part(b, 1)
+    pub(crate) fn patch_at(&self, at: [f64; 2]) -> usize {
+        self.locate(at).which
+    }
+
+    /// The place of (a,b) in the outermost ring, sigma < max(a,b) <= 1 up to rounding.
+    #[inline]
+    pub(crate) fn locate(&self, [a, b]: [f64; 2]) -> PatchParameters {
+        let square = square_of([a, b], self.sigma());
+        let (a, b) = (self.locate_along(square, 0, a), self.locate_along(square, 1, b));
+        PatchParameters {
+            which: self.patch_of([a.part, b.part], square),
+            at: [a.at, b.at],
+            size: [a.size, b.size],
+        }
+    }
+
+    /// The number of patch (i, j) of a square, i along a.
+    pub(crate) fn patch_of(&self, [i, j]: [usize; 2], square: usize) -> usize {
+        (square * self.split + i) * self.split + j
+    }
+
+    /// Where a (k = 0) or b (k = 1) is among the patches of a square; on a line between patches it
+    /// is in the one before.
+    #[inline]
+    pub(crate) fn locate_along(&self, square: usize, k: usize, x: f64) -> PartParameter {
+        if let Some(Cuts { lines, .. }) = self.cuts() {
+            let first = self.first_line(square, k);
+            let inner = &lines[first + 1..first + self.split];
+            let part = inner.iter().filter(|&&line| x > line).count();
+            let (start, end) = (lines[first + part], lines[first + part + 1]);
+            let size = end - start;
+            return PartParameter { part, at: (x - start) / size, size };
+        }
+        // From 0 to the number of patches across the square.
+        let m = self.split as f64;
+        let x = (x - SQUARES[square][k]) * (2.0 * m);
+        let below = x as usize;
+        let on_line = below > 0 && below as f64 == x;
+        let part = (below - usize::from(on_line)).min(self.split - 1);
+        PartParameter { part, at: x - part as f64, size: 0.5 / m }
     }
 
     /// The BB coefficients of patch `which` of sector `s` in the ring between `old` and
@@ -271,34 +311,56 @@ impl Rules {
         old: &[[f64; 3]],
         new: &[[f64; 3]],
     ) -> Vec<[f64; 3]> {
+        self.patch_of_scaled(s, which, old, (new, [1.0; 3]))
+    }
+
+    /// [`Rules::patch`] where A `old` is `new` with its coordinates multiplied by `scale`.
+    pub(crate) fn patch_of_scaled(
+        &self,
+        s: usize,
+        which: usize,
+        old: &[[f64; 3]],
+        (new, scale): (&[[f64; 3]], [f64; 3]),
+    ) -> Vec<[f64; 3]> {
         let (by, own) = match self.turns() {
             1 => (0, s * self.patches_per_sector()),
             _ => (s * self.nodes_per_sector, 0),
         };
-        let (old, new) = (Turned { net: old, by }, Turned { net: new, by });
+        let (old, new) = (turned(old, by), turned(new, by));
         let rule = &self.patches[own + which];
-        let rows = rule.old.iter().zip(&rule.new);
-        rows.map(|(a, b)| add(old.apply(a), new.apply(b))).collect()
+        let coef = |(a, b): (&Row, &Row)| {
+            let (old, new) = (weighted(a, &old), weighted(b, &new));
+            let along = |k: usize| old[k] + scale[k] * new[k];
+            [along(0), along(1), along(2)]
+        };
+        rule.old.iter().zip(&rule.new).map(coef).collect()
     }
 }
 
-/// A net turned so that some sector becomes sector 0.
-#[derive(Clone, Copy)]
-struct Turned<'a> {
-    net: &'a [[f64; 3]],
-    by: usize,
+/// The square in which (a,b) lies.
+#[inline]
+fn square_of([a, b]: [f64; 2], sigma: f64) -> usize {
+    match (a > sigma, b > sigma) {
+        (true, true) => 0,
+        (true, false) => 1,
+        _ => 2,
+    }
 }
 
-impl Turned<'_> {
-    fn apply(self, row: &Row) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for &(node, w) in row {
-            let at = node + self.by;
-            let at = if at < self.net.len() { at } else { at - self.net.len() };
-            add_scaled(&mut sum, w, self.net[at]);
-        }
-        sum
+/// A net turned so that node `by` becomes node 0.
+fn turned(net: &[[f64; 3]], by: usize) -> Vec<[f64; 3]> {
+    let (behind, ahead) = net.split_at(by);
+    [ahead, behind].concat()
+}
+
+/// A row applied to a net whose sector 0 is the row's.
+#[inline]
+fn weighted(row: &Row, net: &[[f64; 3]]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for &(node, w) in row {
+        add_scaled(&mut sum, w, net[node]);
     }
+    sum
 }
 
 /// Collects the weights of a row; weights of one node add up.

@@ -2,7 +2,7 @@
 //! every extraordinary point.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::place::from_sector_parameters;
 use super::{ExtraordinaryPoint, PointRule, QuadId, Sector, SurfaceOptions};
@@ -11,7 +11,7 @@ use crate::mesh::{Cage, Fan, VertexId, cnet_vertices, fan_vertices};
 use crate::net::CNet;
 use crate::point::Point;
 use crate::rings::{Rings, ValenceRules};
-use crate::scheme::{ContractionError, SchemeKind, Variant};
+use crate::scheme::{Contraction, ContractionError, SchemeKind, Variant};
 
 /// Why no surface could be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -66,11 +66,33 @@ pub(super) fn rules_of_points(
     let mut made: BTreeMap<Fan, Arc<ValenceRules>> = BTreeMap::new();
     let of_point = |point: &Extraordinary| {
         let rule = PointRule::of(cage, point, options);
-        let rules =
-            made.entry(point.fan).or_insert_with(|| Arc::new(make(rule, point.fan, options)));
+        let rules = made.entry(point.fan).or_insert_with(|| kept(rule, point.fan, options));
         (rule, rules.clone())
     };
     Ok(plan.points.iter().map(of_point).collect())
+}
+
+/// [`make`], which depends on nothing else, kept for the next surface if that may well ask for it:
+/// to make rules takes longer than the rest of a small surface.
+fn kept(rule: PointRule, fan: Fan, options: SurfaceOptions) -> Arc<ValenceRules> {
+    /// The rules of more faces are rare, and large.
+    const LARGEST: usize = 8;
+    /// So many rules are kept; there are hardly as many.
+    const MOST: usize = 256;
+    type Key = (PointRule, Fan, SurfaceOptions);
+    static KEPT: Mutex<Vec<(Key, Arc<ValenceRules>)>> = Mutex::new(Vec::new());
+    let lock = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let key = (rule, fan, options);
+    if let Some((_, rules)) = lock().iter().find(|(other, _)| *other == key) {
+        return rules.clone();
+    }
+    let rules = Arc::new(make(rule, fan, options));
+    let is_common = fan.faces <= LARGEST && !matches!(options.contraction, Contraction::Lambda(_));
+    let mut all = lock();
+    if is_common && all.len() < MOST {
+        all.push((key, rules.clone()));
+    }
+    rules
 }
 
 fn make(rule: PointRule, fan: Fan, options: SurfaceOptions) -> ValenceRules {

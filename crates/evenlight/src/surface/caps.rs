@@ -1,4 +1,4 @@
-//! Caps of a surface: which points have one, made when it is first asked for.
+//! Caps of a surface, each made when it is first asked for.
 
 use std::sync::{Arc, OnceLock};
 
@@ -11,11 +11,9 @@ use crate::rings::{Rings, ValenceRules};
 #[derive(Debug)]
 pub(super) struct Caps {
     pub(super) options: CapOptions,
-    /// Per point the rules, shared among those alike, and the cap; or why rings go on for ever.
-    around: Vec<Around>,
+    /// Per point the rules, shared among those alike, and the cap.
+    around: Vec<(Arc<ValenceCap>, OnceLock<Cap>)>,
 }
-
-type Around = Result<(Arc<ValenceCap>, OnceLock<Cap>), CapError>;
 
 impl Caps {
     /// # Errors
@@ -32,26 +30,18 @@ impl Caps {
             }
         }
         let made = map_indexed(kinds.len(), |k| ValenceCap::new(kinds[k], options.kind));
-        let mut rules = Vec::new();
-        for result in made {
-            rules.push(match result {
-                Ok(rules) => Ok(Arc::new(rules)),
-                Err(error @ (CapError::Valence { .. } | CapError::Fan)) => Err(error),
-                Err(error) => return Err(error),
-            });
-        }
+        let rules: Vec<Arc<ValenceCap>> =
+            made.into_iter().map(|rules| Ok(Arc::new(rules?))).collect::<Result<_, CapError>>()?;
         let around = rings.iter().map(|rings| {
-            let rules = rules[kind_of(rings, &kinds).expect("all kinds are listed")].clone();
-            rules.map(|rules| (rules, OnceLock::new()))
+            let kind = kind_of(rings, &kinds).expect("all kinds are listed");
+            (Arc::clone(&rules[kind]), OnceLock::new())
         });
         Ok(Self { options, around: around.collect() })
     }
 
     /// Forgets the cap of a point whose rings have changed.
     pub(super) fn forget(&mut self, point: usize) {
-        if let Ok((_, cap)) = &mut self.around[point] {
-            *cap = OnceLock::new();
-        }
+        self.around[point].1 = OnceLock::new();
     }
 }
 
@@ -59,10 +49,9 @@ impl Surface {
     /// Replaces the rings behind the first `options.rings` by caps, finitely many patches; `None` for
     /// rings without end.
     ///
-    /// A surface that is closed like this has derivatives and curvature at extraordinary points too.
-    /// Around points without caps (of valence 2 or above [`MAX_VALENCE`](crate::cap::MAX_VALENCE), and
-    /// those on a boundary or sharp edges) rings go on for ever. Takes some hundredths of a second per valence; caps themselves are made
-    /// when first asked for.
+    /// A surface that is closed like this has derivatives at extraordinary points too, and curvature
+    /// where there is a tangent plane. Takes some hundredths of a second per valence; caps themselves
+    /// are made when first asked for.
     ///
     /// # Errors
     ///
@@ -79,22 +68,11 @@ impl Surface {
         self.caps.as_ref().map(|caps| caps.options)
     }
 
-    /// The cap around an extraordinary point, by its index; `None` if rings go on for ever there.
+    /// The cap around an extraordinary point, by its index; `None` if rings go on for ever.
     pub fn cap(&self, point: usize) -> Option<&Cap> {
         let caps = self.caps.as_ref()?;
-        let (rules, cap) = caps.around[point].as_ref().ok()?;
+        let (rules, cap) = &caps.around[point];
         let make = || Cap::with_rules(&self.rings[point], caps.options.rings, rules);
         Some(cap.get_or_init(make))
-    }
-
-    /// The extraordinary points of a closed surface that have no cap, by their indices.
-    pub fn points_without_cap(&self) -> Vec<usize> {
-        let Some(caps) = &self.caps else { return Vec::new() };
-        (0..caps.around.len()).filter(|&point| caps.around[point].is_err()).collect()
-    }
-
-    /// Why an extraordinary point of a closed surface, by its index, has no cap; `None` if it has.
-    pub fn why_no_cap(&self, point: usize) -> Option<&CapError> {
-        self.caps.as_ref()?.around[point].as_ref().err()
     }
 }

@@ -17,6 +17,8 @@
 
 mod build;
 mod caps;
+mod eval;
+mod grid;
 mod place;
 mod primvar;
 mod rule;
@@ -29,20 +31,19 @@ pub use rule::{PointRule, Reason};
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use crate::mesh::isolation::{CORNERS, Piece, Plan};
+use crate::mesh::isolation::{Piece, Plan};
 use crate::mesh::sharpness::Beyond;
 use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, VertexId};
 use crate::net::Quadratic;
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
-use crate::patch::{Jet, Patch, SurfacePoint};
-use crate::point::{Point, Vector, add_scaled};
+use crate::patch::kernel::{square, sum, sum_of_rows, tensor_jet};
+use crate::patch::{Answer, Jet, Patch, SurfacePoint};
+use crate::point::{Point, Vector};
 use crate::rings::Rings;
 use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
 use build::{describe, refined_positions, rings, rules_of_points};
 use caps::Caps;
-use place::{
-    RingPatch, Source, Square, from_sector, quadrant, ring_domain, to_sector, turned_patch,
-};
+use place::{RingPatch, Source, Square, from_sector, ring_domain, to_sector, turned_patch};
 
 /// The number of a parametric quad: all quads of face 0, then of face 1, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -250,44 +251,20 @@ impl Surface {
     /// ([`Rings::center_curvature`]). Anywhere else, however near, all are exact to rounding
     /// ([`Rings::eval`]).
     pub fn eval(&self, quad: QuadId, u: f64, v: f64) -> Option<SurfacePoint> {
-        if u.is_nan() || v.is_nan() {
-            return None;
-        }
-        let mut piece = *self.plan.pieces[..self.num_quads()].get(quad.0 as usize)?;
-        let (mut at, mut zoom) = ([u.clamp(0.0, 1.0), v.clamp(0.0, 1.0)], 1.0);
-        loop {
-            match piece {
-                Piece::Omitted => return None,
-                Piece::Regular(net) => {
-                    let jet = self.regular_jet(net, at);
-                    return Some(jet.scaled_parameters(zoom).into());
-                }
-                Piece::Sector { point, sector, corner } => {
-                    let [a, b] = to_sector(corner, at);
-                    let found = self.eval_around(point as usize, sector as usize, [a, b]);
-                    let jet = from_sector(corner, &found.jet).scaled_parameters(zoom);
-                    return Some(SurfacePoint { jet, ..found });
-                }
-                Piece::Split(first) => {
-                    let k = quadrant(at);
-                    piece = self.plan.pieces[first as usize + k];
-                    at = [2.0 * at[0] - CORNERS[k][0], 2.0 * at[1] - CORNERS[k][1]];
-                    zoom *= 2.0;
-                }
-            }
-        }
+        self.eval_as(quad, u, v)
     }
 
     /// A sector of an extraordinary point at its own parameters.
-    fn eval_around(&self, point: usize, sector: usize, at: [f64; 2]) -> SurfacePoint {
+    #[inline]
+    fn eval_around<A: Answer>(&self, point: usize, sector: usize, at: [f64; 2]) -> A {
         let rings = &self.rings[point];
         if let Some(cap) = self.cap(point) {
             let in_hole = rings.in_hole(cap.rings(), at);
             if in_hole[0].max(in_hole[1]) <= 1.0 {
-                return cap.eval(rings, sector, in_hole);
+                return cap.eval_as(rings, sector, in_hole);
             }
         }
-        rings.eval(sector, at[0], at[1])
+        rings.eval_as(sector, at[0], at[1])
     }
 
     /// All regular patches and the rings 1 to `rings` of every extraordinary point, quad by
@@ -314,11 +291,11 @@ impl Surface {
         match place.source {
             Source::Net(net) => self.regular_patch(net),
             Source::Ring(RingPatch { point, sector, ring, which, corner, .. }) => {
-                turned_patch(corner, &self.rings[point].patch(ring, sector, which))
+                turned_patch(corner, self.rings[point].patch(ring, sector, which))
             }
             Source::Cap(RingPatch { point, sector, which, corner, .. }) => {
                 let cap = self.cap(point).expect("places of caps are those of caps");
-                turned_patch(corner, &cap.patch(&self.rings[point], sector, which))
+                turned_patch(corner, cap.patch(&self.rings[point], sector, which))
             }
         }
     }
@@ -330,7 +307,7 @@ impl Surface {
         match place.source {
             Source::Net(net) => {
                 let [[u0, u1], [v0, v1]] = place.domain;
-                let jet = self.regular_jet(net, [(u - u0) / (u1 - u0), (v - v0) / (v1 - v0)]);
+                let jet = self.regular_jet(2, net, [(u - u0) / (u1 - u0), (v - v0) / (v1 - v0)]);
                 jet.scaled_parameters(1.0 / (u1 - u0)).into()
             }
             Source::Ring(RingPatch { point, sector, ring, which, square, corner }) => {
@@ -414,31 +391,27 @@ impl Surface {
         }
     }
 
+    #[inline]
     fn positions(&self, level: usize) -> &[Point] {
         if level == 0 { self.cage.positions() } else { &self.refined[level - 1] }
     }
 
+    #[inline]
     fn net_points(&self, net: u32) -> [Point; 16] {
         let net = &self.plan.nets[net as usize];
         net.points(self.positions(net.level as usize))
     }
 
-    fn regular_jet(&self, net: u32, [u, v]: [f64; 2]) -> Jet {
+    #[inline(always)]
+    fn regular_jet(&self, order: usize, net: u32, [u, v]: [f64; 2]) -> Jet {
         let points = self.net_points(net);
-        let (bu, bv) = (cubic_b_spline(u), cubic_b_spline(v));
-        Jet::tensor_product(&bu, &bv, [4, 4], |i, j| points[4 * i + j])
+        tensor_jet(order, &cubic_b_spline(u), &cubic_b_spline(v), square(&points))
     }
 
     fn regular_patch(&self, net: u32) -> Patch {
         let points = self.net_points(net);
-        let coef = |k: usize| {
-            let mut sum = [0.0; 3];
-            for (m, &p) in points.iter().enumerate() {
-                let w = CUBIC_B_SPLINE_TO_BB[k / 4][m / 4] * CUBIC_B_SPLINE_TO_BB[k % 4][m % 4];
-                add_scaled(&mut sum, w, p);
-            }
-            sum
-        };
-        Patch::new([3, 3], (0..16).map(coef).collect())
+        let along_u = CUBIC_B_SPLINE_TO_BB.map(|row| sum_of_rows(&row, square(&points)));
+        let along_v = |p: [Point; 4]| CUBIC_B_SPLINE_TO_BB.map(|row| sum(&row, &p));
+        Patch::new([3, 3], along_u.map(along_v).as_flattened().to_vec())
     }
 }

@@ -157,16 +157,22 @@ pub(super) fn from_sector(corner: u8, jet: &Jet) -> Jet {
 }
 
 /// A patch given in (a,b) with its parameters along (u,v).
-pub(super) fn turned_patch(corner: u8, patch: &Patch) -> Patch {
+pub(super) fn turned_patch(corner: u8, patch: Patch) -> Patch {
     let [d, _] = patch.degree();
-    let coef = |i: usize, j: usize| match corner {
-        0 => patch.coef(i, j),
-        1 => patch.coef(j, d - i),
-        2 => patch.coef(d - i, d - j),
-        _ => patch.coef(d - j, i),
+    // Coefficient (i, j) of the result is number first + i * by_i + j * by_j of the patch.
+    let order = d as isize + 1;
+    let (first, by_i, by_j) = match corner {
+        0 => return patch,
+        1 => (order - 1, -1, order),
+        2 => (order * order - 1, -order, -1),
+        _ => (order * (order - 1), 1, -order),
     };
-    let coefs = (0..=d).flat_map(|i| (0..=d).map(move |j| (i, j))).map(|(i, j)| coef(i, j));
-    Patch::new([d, d], coefs.collect())
+    let coefs = patch.coefs();
+    let mut turned = Vec::with_capacity(coefs.len());
+    for i in 0..order {
+        turned.extend((0..order).map(|j| coefs[(first + i * by_i + j * by_j) as usize]));
+    }
+    Patch::new([d, d], turned)
 }
 
 /// The (u,v) rectangle, in the square of its sector, of a patch of ring `ring` (from 0) that

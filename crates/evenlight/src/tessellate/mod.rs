@@ -9,8 +9,8 @@
 //!  | \ | / | / |     are vertices of the neighbour as well
 //!  o---o---o---o
 //!  | / | / | / |     a cell is cut along its shorter diagonal; where both are equal, along
-//!  o---o---o---o     the one that points to the middle of the quad
-//!  | / | / | \ |
+//!  o---o---o---o     the one that points to the middle of the quad; from a vertex with two
+//!  | / | / | \ |     faces always
 //!  a---o---o---b
 //! ```
 //!
@@ -19,48 +19,77 @@
 //! cage gives a closed mesh of the same genus. Triangles run counter-clockwise seen from
 //! outside. The result is the same bytes whatever the number of threads.
 //!
+//! Along infinitely sharp edges the surface has two tangent planes. The vertices stay one, but have
+//! two *sides* there, and more where such edges meet ([`TriangleMesh::sides`]). So there are two
+//! ways to use a mesh:
+//!
+//! | | vertices | triangles |
+//! | --- | --- | --- |
+//! | watertight, for measuring, printing and simulation | `positions` | `triangles` |
+//! | shaded, hard at creases | of every side, `positions[vertex_of_side(side)]` and `normals` | [`sides()`](TriangleMesh::sides) |
+//!
+//! [`TriangleMesh::split`] makes vertices for graphics, also at the seams of channels such as texture
+//! coordinates ([`TriangleMesh::corner_values`], [`TriangleMesh::corner_channels`]).
+//!
 //! What is not: the triangles may intersect where the surface does. Faces without a surface
 //! are left out, and where two faces with a surface share nothing but a vertex, so do their
 //! triangles.
 
 mod corners;
 mod nodes;
+mod samples;
+mod sides;
+mod split;
 
-pub use corners::CornerValues;
+pub use corners::{CornerChannels, CornerValues};
+pub use split::SplitVertices;
 
 use std::collections::BTreeMap;
 
-use crate::parallel::map_indexed;
 use crate::patch::SurfacePoint;
 use crate::point::{Point, Vector, add, dot, sub, unit};
 use crate::surface::{QuadId, Surface};
 use nodes::{Grid, Nodes};
+use samples::samples;
+use sides::Sides;
 
 /// Triangles on the limit surface, with what the surface says at their vertices.
 ///
-/// The first five lists have one entry for each vertex. A vertex takes 88 bytes, a triangle 12.
+/// There is a position for each vertex, and a normal, K, H and an origin for each *side* of a vertex.
+/// Side `v` is the first side of vertex `v`; the sides from `positions.len()` on are those that
+/// vertices have in addition where the surface is folded along an infinitely sharp edge. Without
+/// such edges sides are vertices.
+///
+/// A vertex takes 88 bytes, a triangle 12; where there are folds a further side takes 68 and a
+/// triangle 24.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh {
-    /// Points of the surface, in the units of the cage.
+    /// Points of the surface, in the units of the cage; of each vertex.
     pub positions: Vec<Point>,
     /// The unit normals of the surface, outward; NaN where neither the surface nor what is around
-    /// has one.
+    /// has one. Of each side.
     pub normals: Vec<Vector>,
-    /// The Gauss curvature K in 1/length^2; see [`tessellate`] for extraordinary points.
+    /// The Gauss curvature K in 1/length^2; see [`tessellate`] for extraordinary points. Of each
+    /// side.
     pub gauss: Vec<f64>,
-    /// The mean curvature H in 1/length, negative on convex bodies.
+    /// The mean curvature H in 1/length, negative on convex bodies. Of each side.
     pub mean: Vec<f64>,
-    /// Where each vertex was computed: the lowest quad that it lies in.
+    /// Where each side was computed: the lowest quad of those around it.
     pub origins: Vec<VertexOrigin>,
+    /// The vertices of the sides from `positions.len()` on.
+    pub side_vertices: Vec<u32>,
     /// The corners of the triangles, as indices of vertices, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
+    /// The corners of the triangles, as numbers of sides; empty if sides are vertices, see
+    /// [`TriangleMesh::sides`].
+    pub corner_sides: Vec<[u32; 3]>,
     /// The quads with a surface, in order, and the triangles of each.
     pub quads: Vec<QuadTriangles>,
     /// The number of segments along every edge of the cage.
     pub rate: usize,
 }
 
-/// The parameters at which a vertex was computed.
+/// The parameters at which a side of a vertex was computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexOrigin {
     /// The parametric quad.
@@ -113,7 +142,7 @@ pub enum TessellateError {
 /// Normals and curvatures are those of the surface, not of the triangles. At an extraordinary
 /// point the vertex is the limit point with the limit normal. Where curvature does not exist there
 /// (schemes without a quadratic), or no tangent plane (valence 2, cusps), the mesh has instead the
-/// mean of the values in the middle of the cells around.
+/// mean of the values in the middle of the cells around, on the same side of folds.
 ///
 /// # Errors
 ///
@@ -123,11 +152,13 @@ pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, Tessel
     let nodes = Nodes::number(surface.cage().topology(), rate_used(surface, rate)?, |f| {
         !surface.is_omitted(f)
     })?;
+    let sides = Sides::number(surface, &nodes)?;
     let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
-    mesh.origins = origins(surface, &nodes);
+    mesh.side_vertices = sides.nodes().to_vec();
+    mesh.origins = origins(surface, &nodes, &sides);
     mesh.evaluate(surface);
-    mesh.fill_what_is_missing(surface, &nodes);
-    mesh.triangulate(surface, &nodes);
+    mesh.fill_what_is_missing(surface, &nodes, &sides);
+    mesh.triangulate(surface, &nodes, &sides);
     Ok(mesh)
 }
 
@@ -148,14 +179,14 @@ fn quad_of(surface: &Surface, grid: Grid) -> QuadId {
     surface.quad(grid.face, grid.corner).expect("the grids are those of the surface's quads")
 }
 
-/// The first grid, in the order of the quads, in which each node lies.
-fn origins(surface: &Surface, nodes: &Nodes) -> Vec<VertexOrigin> {
+/// The first grid, in the order of the quads, in which each side lies.
+fn origins(surface: &Surface, nodes: &Nodes, sides: &Sides) -> Vec<VertexOrigin> {
     const UNKNOWN: VertexOrigin = VertexOrigin { quad: QuadId(u32::MAX), uv: [0.0; 2] };
-    let mut origins = vec![UNKNOWN; nodes.len()];
+    let mut origins = vec![UNKNOWN; nodes.len() + sides.nodes().len()];
     for grid in nodes.grids() {
-        let quad = quad_of(surface, grid);
+        let (quad, sides) = (quad_of(surface, grid), sides.of_face(grid.face));
         for (i, j) in grid.nodes() {
-            let origin = &mut origins[nodes.node(grid, i, j) as usize];
+            let origin = &mut origins[sides.side(nodes.node(grid, i, j)) as usize];
             if origin.quad == UNKNOWN.quad {
                 *origin = VertexOrigin { quad, uv: grid.parameters(i as f64, j as f64) };
             }
@@ -169,63 +200,114 @@ fn eval(surface: &Surface, quad: QuadId, [u, v]: [f64; 2]) -> SurfacePoint {
 }
 
 impl TriangleMesh {
-    /// Computes all vertices, a slice at a time: what the surface answers is twice as large as
-    /// what is kept of it.
+    /// Computes all sides, and vertices on their first, a slice at a time.
     fn evaluate(&mut self, surface: &Surface) {
         const SLICE: usize = 1 << 16;
-        self.positions.reserve_exact(self.origins.len());
+        let num_vertices = self.origins.len() - self.side_vertices.len();
+        self.positions.reserve_exact(num_vertices);
         self.normals.reserve_exact(self.origins.len());
         self.gauss.reserve_exact(self.origins.len());
         self.mean.reserve_exact(self.origins.len());
         for slice in self.origins.chunks(SLICE) {
-            let points = map_indexed(slice.len(), |k| eval(surface, slice[k].quad, slice[k].uv));
-            self.positions.extend(points.iter().map(|p| p.jet.p));
-            self.normals.extend(points.iter().map(|p| p.normal));
-            self.gauss.extend(points.iter().map(|p| p.gauss));
-            self.mean.extend(points.iter().map(|p| p.mean));
+            for points in samples(surface, slice) {
+                let missing = num_vertices - self.positions.len();
+                self.positions.extend(points.iter().map(|p| p.position).take(missing));
+                self.normals.extend(points.iter().map(|p| p.normal));
+                self.gauss.extend(points.iter().map(|p| p.gauss));
+                self.mean.extend(points.iter().map(|p| p.mean));
+            }
         }
     }
 
     /// Gives extraordinary points, which are corners of quads, the curvature and the normal that
     /// they lack: the mean over the middles of the cells around, which do not depend on how cells
     /// are cut.
-    fn fill_what_is_missing(&mut self, surface: &Surface, nodes: &Nodes) {
+    fn fill_what_is_missing(&mut self, surface: &Surface, nodes: &Nodes, sides: &Sides) {
         let mut around: BTreeMap<u32, Vec<SurfacePoint>> = BTreeMap::new();
         for grid in nodes.grids() {
-            let m = grid.segments;
+            let (m, sides) = (grid.segments, sides.of_face(grid.face));
             for (i, j) in [(0, 0), (m, 0), (m, m), (0, m)] {
-                let node = nodes.node(grid, i, j);
-                if self.gauss[node as usize].is_nan() {
+                let side = sides.side(nodes.node(grid, i, j));
+                if self.gauss[side as usize].is_nan() {
                     let middle = |i: usize| if i == 0 { 0.5 } else { i as f64 - 0.5 };
                     let uv = grid.parameters(middle(i), middle(j));
-                    around.entry(node).or_default().push(eval(surface, quad_of(surface, grid), uv));
+                    around.entry(side).or_default().push(eval(surface, quad_of(surface, grid), uv));
                 }
             }
         }
-        for (node, points) in around {
+        for (side, points) in around {
             let n = points.len() as f64;
-            self.gauss[node as usize] = points.iter().map(|p| p.gauss).sum::<f64>() / n;
-            self.mean[node as usize] = points.iter().map(|p| p.mean).sum::<f64>() / n;
-            let normal = &mut self.normals[node as usize];
+            self.gauss[side as usize] = points.iter().map(|p| p.gauss).sum::<f64>() / n;
+            self.mean[side as usize] = points.iter().map(|p| p.mean).sum::<f64>() / n;
+            let normal = &mut self.normals[side as usize];
             if normal[0].is_nan() {
                 *normal = unit(points.iter().fold([0.0; 3], |sum, p| add(sum, p.normal)));
             }
         }
     }
 
-    fn triangulate(&mut self, surface: &Surface, nodes: &Nodes) {
+    fn triangulate(&mut self, surface: &Surface, nodes: &Nodes, sides: &Sides) {
         let num_cells: usize = nodes.grids().map(|grid| grid.segments * grid.segments).sum();
         self.triangles.reserve_exact(2 * num_cells);
+        self.corner_sides.reserve_exact(if self.is_folded() { 2 * num_cells } else { 0 });
         for grid in nodes.grids() {
             let (quad, first) = (quad_of(surface, grid), self.triangles.len());
+            let sides = sides.of_face(grid.face);
             self.quads.push(QuadTriangles { quad, segments: grid.segments as u32, first });
             for (i, j) in grid.cells() {
                 let corners = cell_corners(i, j).map(|(i, j)| nodes.node(grid, i, j));
                 let points = corners.map(|v| self.positions[v as usize]);
-                let diagonal = Diagonal::choose(points, i, j, grid.segments);
+                let pinned = cell_corners(i, j).map(|(i, j)| nodes.has_two_faces(grid, i, j));
+                let diagonal = Diagonal::from_pinned(pinned)
+                    .unwrap_or_else(|| Diagonal::choose(points, i, j, grid.segments));
                 self.triangles.extend(diagonal.cut(corners));
+                if self.is_folded() {
+                    self.corner_sides.extend(diagonal.cut(corners.map(|v| sides.side(v))));
+                }
             }
         }
+    }
+
+    /// Whether some vertex has several sides.
+    pub fn is_folded(&self) -> bool {
+        !self.side_vertices.is_empty()
+    }
+
+    /// The corners of the triangles, as numbers of sides: with `sides()` in the place of `triangles`
+    /// every triangle has the normals and curvatures of its own side of folds.
+    ///
+    /// ```
+    /// use evenlight::io::obj;
+    /// use evenlight::tessellate::tessellate;
+    /// use evenlight::{Surface, SurfaceOptions};
+    ///
+    /// let roof = "v 0 0 0\nv 1 0 1\nv 2 0 0\nv 0 1 0\nv 1 1 1\nv 2 1 0\n\
+    ///             f 1 2 5 4\nf 2 3 6 5\nt crease 2/1/0 1 4 10\n";
+    /// let (cage, _) = obj::read_cage(roof.as_bytes())?;
+    /// let mesh = tessellate(&Surface::build(cage, SurfaceOptions::default())?, 4)?;
+    /// // Five vertices on the ridge have two sides.
+    /// assert_eq!((mesh.positions.len(), mesh.normals.len()), (5 * 9, 5 * 10));
+    /// for (t, sides) in mesh.sides().iter().enumerate() {
+    ///     for (&vertex, &side) in mesh.triangles[t].iter().zip(sides) {
+    ///         assert_eq!(mesh.vertex_of_side(side), vertex);
+    ///         let on_the_left = mesh.parametric_triangle(t).quad.0 == 0;
+    ///         assert_eq!(mesh.normals[side as usize][0] < 0.0, on_the_left);
+    ///     }
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn sides(&self) -> &[[u32; 3]] {
+        if self.is_folded() { &self.corner_sides } else { &self.triangles }
+    }
+
+    /// The vertex that has side `side`.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such side.
+    pub fn vertex_of_side(&self, side: u32) -> u32 {
+        let further = (side as usize).checked_sub(self.positions.len());
+        further.map_or(side, |k| self.side_vertices[k])
     }
 
     /// Triangle `triangle` in the parameters of its quad, by a binary search over the quads.
@@ -253,12 +335,17 @@ impl TriangleMesh {
     }
 
     fn parametric_triangle_of(&self, q: QuadTriangles, triangle: usize) -> ParametricTriangle {
+        let parameter = |i: usize| i as f64 / f64::from(q.segments);
+        let uv = self.grid_nodes(q, triangle).map(|(i, j)| [parameter(i), parameter(j)]);
+        ParametricTriangle { quad: q.quad, uv }
+    }
+
+    /// The nodes (i, j) of the grid of `q` at the corners of one of its triangles.
+    fn grid_nodes(&self, q: QuadTriangles, triangle: usize) -> [(usize, usize); 3] {
         let (cell, half) = ((triangle - q.first) / 2, (triangle - q.first) % 2);
         let m = q.segments as usize;
         let [a, b] = [0, 1].map(|k| self.triangles[q.first + 2 * cell + k]);
-        let uv = |(i, j)| [i as f64 / f64::from(q.segments), j as f64 / f64::from(q.segments)];
-        let corners = cell_corners(cell % m, cell / m).map(uv);
-        ParametricTriangle { quad: q.quad, uv: Diagonal::of(a, b).cut(corners)[half] }
+        Diagonal::of(a, b).cut(cell_corners(cell % m, cell / m))[half]
     }
 }
 
@@ -295,6 +382,16 @@ impl Diagonal {
             Self::Falling
         } else {
             Self::Rising
+        }
+    }
+
+    /// The diagonal from a corner around which there are just two faces. The other diagonal would
+    /// join the edges that the two have in common, on both sides, and be an edge of four triangles.
+    fn from_pinned([a, b, c, d]: [bool; 4]) -> Option<Self> {
+        match (a || c, b || d) {
+            (true, false) => Some(Self::Rising),
+            (false, true) => Some(Self::Falling),
+            _ => None,
         }
     }
 

@@ -16,8 +16,10 @@
 //! node on an edge, counted from the start of the half-edge with the lower number. The numbers
 //! of the nodes follow the faces: what a face meets first is numbered there.
 
+use std::ops::Range;
+
 use super::TessellateError;
-use crate::mesh::{FaceId, HalfEdgeId, Topology};
+use crate::mesh::{FaceId, HalfEdgeId, Topology, VertexId};
 
 /// No number yet, or a face without surface. The last `u32` is never given to a node.
 const NONE: u32 = u32::MAX;
@@ -130,6 +132,17 @@ impl<'a> Nodes<'a> {
         self.len as usize
     }
 
+    /// The node at `v`, which must be one of a covered face.
+    pub fn at_vertex(&self, v: VertexId) -> u32 {
+        self.vertex[v.index()]
+    }
+
+    /// The nodes inside the edge of `h`, which must be one of a covered face.
+    pub fn inside(&self, h: HalfEdgeId) -> Range<u32> {
+        let first = self.edge[self.lower_half_edge(h).0.index()];
+        first..first + (self.rate - 1) as u32
+    }
+
     /// The grids of all quads with a surface, in the order of the quads.
     pub fn grids(&self) -> impl Iterator<Item = Grid> {
         self.topology.faces().ids().filter(|f| self.face[f.index()] != NONE).flat_map(|face| {
@@ -138,6 +151,20 @@ impl<'a> Nodes<'a> {
                 if num_corners == 4 { (1, self.rate) } else { (num_corners, self.rate / 2) };
             (0..quads).map(move |corner| Grid { face, corner, num_corners, segments })
         })
+    }
+
+    /// Whether node (`i`, `j`) of `grid` is a vertex around which there are just two faces, which
+    /// then share two edges in a row.
+    pub fn has_two_faces(&self, grid: Grid, i: usize, j: usize) -> bool {
+        let m = grid.segments;
+        let corners = [(0, 0), (m, 0), (m, m), (0, m)];
+        let corner = match corners.iter().position(|&at| at == (i, j)) {
+            Some(k) if grid.num_corners == 4 => k,
+            Some(0) => grid.corner,
+            _ => return false,
+        };
+        let v = self.topology.origin(self.topology.half_edge(grid.face, corner));
+        self.topology.num_sectors(v) == 2 && !self.topology.is_boundary(v)
     }
 
     /// The number of node (`i`, `j`) of `grid`: the only place where numbers are worked out.

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "every test file uses a part of this")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its cages fails")]
 
+pub mod fans;
 pub mod refine;
 
 use std::path::{Path, PathBuf};
@@ -29,6 +30,15 @@ pub fn cage(name: &str) -> Arc<Cage> {
 pub fn all_cages() -> Vec<(String, Arc<Cage>)> {
     let mut folders = vec![data(), data().join("obstacle")];
     folders.extend(std::env::var_os("EVENLIGHT_EXTRA_MESHES").map(PathBuf::from));
+    cages_in(&folders)
+}
+
+/// Our cages with boundaries, creases, corners, darts, holes and seams.
+pub fn feature_cages() -> Vec<(String, Arc<Cage>)> {
+    cages_in(&[data().join("features")])
+}
+
+fn cages_in(folders: &[PathBuf]) -> Vec<(String, Arc<Cage>)> {
     let mut files: Vec<PathBuf> = folders
         .iter()
         .flat_map(|folder| std::fs::read_dir(folder).unwrap())

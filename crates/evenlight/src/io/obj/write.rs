@@ -33,12 +33,11 @@ pub(super) fn omitted(mesh: &Mesh) -> Vec<String> {
 
 /// The channel for the colours on the lines of vertices.
 fn colors(mesh: &Mesh) -> Option<&Primvar> {
-    const NAMES: [&str; 2] = ["color", "displayColor"];
     let fits = |p: &&Primvar| {
         p.interpolation == Interpolation::Vertex
             && p.width == 3
             && p.values.len() == 3 * mesh.positions.len()
-            && NAMES.contains(&p.name.as_str())
+            && p.is_color()
     };
     mesh.primvars.iter().find(fits)
 }
@@ -48,7 +47,7 @@ fn uvs(mesh: &Mesh) -> Option<&Primvar> {
     let fits = |p: &&Primvar| {
         (1..=3).contains(&p.width) && p.values.len().is_multiple_of(p.width) && has_corners(mesh, p)
     };
-    let named = |p: &&Primvar| matches!(p.name.as_str(), "st" | "uv");
+    let named = |p: &&Primvar| p.has_uv_name();
     let candidates = || mesh.primvars.iter().filter(fits);
     let unnamed = |p: &&Primvar| p.width == 2 && p.interpolation == Interpolation::FaceVarying;
     candidates().find(named).or_else(|| candidates().find(unnamed))

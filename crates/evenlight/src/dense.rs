@@ -1,37 +1,37 @@
 //! Small dense linear algebra: Householder QR with column pivoting, and least squares under linear
 //! conditions by it.
 //!
-//! Plain loops in a fixed order, so that caps have the same bits everywhere.
+//! Plain loops in a fixed order, so that the results have the same bits everywhere.
 
 use std::ops::{Index, IndexMut};
 
 /// A matrix, stored by rows.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Matrix {
+pub(crate) struct Matrix {
     rows: usize,
     columns: usize,
     entries: Vec<f64>,
 }
 
 impl Matrix {
-    pub(super) fn zeros(rows: usize, columns: usize) -> Self {
+    pub(crate) fn zeros(rows: usize, columns: usize) -> Self {
         Self { rows, columns, entries: vec![0.0; rows * columns] }
     }
 
-    pub(super) fn from_rows(columns: usize, rows: &[Vec<f64>]) -> Self {
+    pub(crate) fn from_rows(columns: usize, rows: &[Vec<f64>]) -> Self {
         debug_assert!(rows.iter().all(|row| row.len() == columns));
         Self { rows: rows.len(), columns, entries: rows.concat() }
     }
 
-    pub(super) fn num_rows(&self) -> usize {
+    pub(crate) fn num_rows(&self) -> usize {
         self.rows
     }
 
-    pub(super) fn num_columns(&self) -> usize {
+    pub(crate) fn num_columns(&self) -> usize {
         self.columns
     }
 
-    pub(super) fn row(&self, i: usize) -> &[f64] {
+    pub(crate) fn row(&self, i: usize) -> &[f64] {
         &self.entries[self.columns * i..self.columns * (i + 1)]
     }
 
@@ -39,7 +39,7 @@ impl Matrix {
         &mut self.entries[self.columns * i..self.columns * (i + 1)]
     }
 
-    pub(super) fn transposed(&self) -> Self {
+    pub(crate) fn transposed(&self) -> Self {
         let mut result = Self::zeros(self.columns, self.rows);
         for (i, j) in (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| (i, j))) {
             result[(j, i)] = self[(i, j)];
@@ -48,20 +48,20 @@ impl Matrix {
     }
 
     /// The rows `range`.
-    pub(super) fn select_rows(&self, range: std::ops::Range<usize>) -> Self {
+    pub(crate) fn select_rows(&self, range: std::ops::Range<usize>) -> Self {
         let entries = self.entries[self.columns * range.start..self.columns * range.end].to_vec();
         Self { rows: range.len(), columns: self.columns, entries }
     }
 
     /// The columns `range`.
-    pub(super) fn select_columns(&self, range: std::ops::Range<usize>) -> Self {
+    pub(crate) fn select_columns(&self, range: std::ops::Range<usize>) -> Self {
         let rows: Vec<Vec<f64>> =
             (0..self.rows).map(|i| self.row(i)[range.clone()].to_vec()).collect();
         Self::from_rows(range.len(), &rows)
     }
 
     /// `self * other`.
-    pub(super) fn times(&self, other: &Self) -> Self {
+    pub(crate) fn times(&self, other: &Self) -> Self {
         debug_assert_eq!(self.columns, other.rows);
         let mut result = Self::zeros(self.rows, other.columns);
         for i in 0..self.rows {
@@ -73,7 +73,7 @@ impl Matrix {
     }
 
     /// `self += w * other`.
-    pub(super) fn add(&mut self, w: f64, other: &Self) {
+    pub(crate) fn add(&mut self, w: f64, other: &Self) {
         debug_assert_eq!((self.rows, self.columns), (other.rows, other.columns));
         add_to(&mut self.entries, w, &other.entries);
     }
@@ -99,7 +99,7 @@ fn add_to(sum: &mut [f64], w: f64, row: &[f64]) {
 }
 
 /// A P = Q R, with the columns in the order that brings the largest remaining one to the front.
-pub(super) struct Qr {
+pub(crate) struct Qr {
     /// The rows of R, `rank` of them, in pivoted order of columns.
     r: Matrix,
     /// The vectors of the reflections, from their own row on.
@@ -114,7 +114,7 @@ pub(super) struct Qr {
 const DEPENDENT: f64 = 1e-10;
 
 impl Qr {
-    pub(super) fn new(mut a: Matrix) -> Self {
+    pub(crate) fn new(mut a: Matrix) -> Self {
         let (m, n) = (a.rows, a.columns);
         let mut order: Vec<usize> = (0..n).collect();
         let mut reflections = Vec::new();
@@ -149,7 +149,7 @@ impl Qr {
     }
 
     /// The x of least |A x - b|, column by column; entries that do not matter are zero.
-    pub(super) fn least_squares(&self, b: Matrix) -> Matrix {
+    pub(crate) fn least_squares(&self, b: Matrix) -> Matrix {
         let turned = self.turned(b);
         let mut x = Matrix::zeros(self.order.len(), turned.columns);
         for k in (0..self.rank).rev() {
@@ -166,7 +166,7 @@ impl Qr {
 
     /// Of the conditions A^T x = b, A having as many rows as x: the x of least length, if they do
     /// not contradict each other, and a basis of all x with A^T x = 0, as columns.
-    pub(super) fn solutions(&self, rows: usize, b: &Matrix) -> (Matrix, Matrix) {
+    pub(crate) fn solutions(&self, rows: usize, b: &Matrix) -> (Matrix, Matrix) {
         // R^T y = P^T b from the top down; later rows of b repeat earlier ones.
         let mut y = Matrix::zeros(rows, b.columns);
         for k in 0..self.rank {
@@ -185,7 +185,7 @@ impl Qr {
 }
 
 /// R of A = Q R without pivoting, with no more rows than columns: |R x| = |A x| for all x.
-pub(super) fn triangle(mut a: Matrix) -> Matrix {
+pub(crate) fn triangle(mut a: Matrix) -> Matrix {
     let steps = a.rows.min(a.columns);
     for k in 0..steps {
         let v = reflection(&(k..a.rows).map(|i| a[(i, k)]).collect::<Vec<_>>());
@@ -236,7 +236,7 @@ fn reflect(v: &[f64], k: usize, b: &mut Matrix) {
 
 /// The solution x of least |O (x, d)| with C (x, d) = 0, as a matrix on d: `objective` and
 /// `conditions` have the columns of x first, then those of the data d.
-pub(super) fn constrained_least_squares(
+pub(crate) fn constrained_least_squares(
     unknowns: usize,
     conditions: &Matrix,
     objective: &Matrix,

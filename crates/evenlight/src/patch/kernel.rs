@@ -1,0 +1,254 @@
+//! Evaluation of tensor products of a fixed size: the inner loops of everything that evaluates.
+//!
+//! The sum over the slower index runs first, over whole rows of coordinates:
+//!
+//! ```text
+//!   r_j = sum_i B_i(u) p_ij          one row: 3 (d+1) numbers side by side
+//!   p   = sum_j B_j(v) r_j
+//! ```
+//!
+//! Sizes are constants, so that loops are unrolled and become vector instructions; the order of
+//! summation is fixed, so that results are the same bits everywhere. What is not asked for
+//! (derivatives beyond `order`) is left out, and zero in the result.
+
+use super::Jet;
+use super::basis::{BasisJet, bernstein};
+use crate::point::{Point, Vector, scale};
+
+/// The jet up to `order` (0, 1 or 2) of sum_ij bu_i bv_j p_ij.
+#[inline(always)]
+pub(crate) fn tensor_jet<const N: usize>(
+    order: usize,
+    bu: &BasisJet<N>,
+    bv: &BasisJet<N>,
+    p: &[[Point; N]; N],
+) -> Jet {
+    Rows::new(order, bu, p).jet(order, bv)
+}
+
+/// The sums over the slower index, of all derivatives in u up to the order asked for.
+struct Rows<const N: usize> {
+    r: [Point; N],
+    r_u: [Point; N],
+    r_uu: [Point; N],
+}
+
+impl<const N: usize> Rows<N> {
+    #[inline(always)]
+    fn new(order: usize, bu: &BasisJet<N>, p: &[[Point; N]; N]) -> Self {
+        let none = [[0.0; 3]; N];
+        Self {
+            r: sum_of_rows(&bu[0], p),
+            r_u: if order >= 1 { sum_of_rows(&bu[1], p) } else { none },
+            r_uu: if order >= 2 { sum_of_rows(&bu[2], p) } else { none },
+        }
+    }
+
+    #[inline(always)]
+    fn jet(&self, order: usize, bv: &BasisJet<N>) -> Jet {
+        let mut jet = Jet { p: sum(&bv[0], &self.r), ..Jet::default() };
+        if order >= 1 {
+            jet.dv = sum(&bv[1], &self.r);
+            jet.du = sum(&bv[0], &self.r_u);
+        }
+        if order >= 2 {
+            jet.dvv = sum(&bv[2], &self.r);
+            jet.duv = sum(&bv[1], &self.r_u);
+            jet.duu = sum(&bv[0], &self.r_uu);
+        }
+        jet
+    }
+}
+
+/// A line of a grid in parameters: its number, and the parameter that is constant on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    pub(crate) number: usize,
+    pub(crate) at: f64,
+}
+
+/// [`tensor_jet`] where every line of `us` meets every line of `vs`: `put` gets the numbers of both
+/// and the jet, the same bits as one at a time. What two places of a line have in common is
+/// computed once.
+#[inline(always)]
+pub(crate) fn tensor_grid<const N: usize>(
+    order: usize,
+    basis: impl Fn(f64) -> BasisJet<N>,
+    p: &[[Point; N]; N],
+    [us, vs]: [&[Line]; 2],
+    mut put: impl FnMut(usize, usize, &Jet),
+) {
+    /// So many bases are kept.
+    const KEPT: usize = 16;
+    let mut bases = [[[0.0; N]; 3]; KEPT];
+    for vs in vs.chunks(KEPT) {
+        bases.iter_mut().zip(vs).for_each(|(bv, v)| *bv = basis(v.at));
+        for u in us {
+            let rows = Rows::new(order, &basis(u.at), p);
+            for (v, bv) in vs.iter().zip(&bases) {
+                put(u.number, v.number, &rows.jet(order, bv));
+            }
+        }
+    }
+}
+
+/// [`patch_jet`] on a grid, as [`tensor_grid`].
+#[inline(always)]
+pub(crate) fn patch_grid(
+    order: usize,
+    degree: usize,
+    coefs: &[Point],
+    [us, vs]: [&[Line]; 2],
+    mut put: impl FnMut(usize, usize, &Jet),
+) {
+    match degree {
+        3 => tensor_grid::<4>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        4 => tensor_grid::<5>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        5 => tensor_grid::<6>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        6 => tensor_grid::<7>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        _ => {
+            for (u, v) in us.iter().flat_map(|u| vs.iter().map(move |v| (u, v))) {
+                put(u.number, v.number, &patch_jet(order, degree, coefs, [u.at, v.at]));
+            }
+        }
+    }
+}
+
+/// sum_i w_i p_i of whole rows.
+#[inline(always)]
+pub(crate) fn sum_of_rows<const N: usize>(w: &[f64; N], p: &[[Point; N]; N]) -> [Point; N] {
+    let mut row = [[0.0; 3]; N];
+    row.as_flattened_mut().iter_mut().zip(p[0].as_flattened()).for_each(|(x, y)| *x = w[0] * y);
+    for i in 1..N {
+        let terms = row.as_flattened_mut().iter_mut().zip(p[i].as_flattened());
+        terms.for_each(|(x, y)| *x += w[i] * y);
+    }
+    row
+}
+
+/// sum_j w_j r_j.
+#[inline(always)]
+pub(crate) fn sum<const N: usize>(w: &[f64; N], r: &[Point; N]) -> Vector {
+    let mut sum = scale(w[0], r[0]);
+    for j in 1..N {
+        for k in 0..3 {
+            sum[k] += w[j] * r[j][k];
+        }
+    }
+    sum
+}
+
+/// The jet up to `order` of the patch of degree bi-`degree` with these BB coefficients, `v` index
+/// fastest.
+///
+/// # Panics
+///
+/// If there are too few coefficients, or the degree is above [`MAX_DEGREE`](super::MAX_DEGREE).
+#[inline]
+pub(crate) fn patch_jet(order: usize, degree: usize, coefs: &[Point], [u, v]: [f64; 2]) -> Jet {
+    match degree {
+        3 => square_jet::<4>(order, coefs, u, v),
+        4 => square_jet::<5>(order, coefs, u, v),
+        5 => square_jet::<6>(order, coefs, u, v),
+        6 => square_jet::<7>(order, coefs, u, v),
+        _ => {
+            let (bu, bv) = (bernstein(degree, u), bernstein(degree, v));
+            Jet::tensor_product(&bu, &bv, [degree + 1; 2], |i, j| coefs[i * (degree + 1) + j])
+        }
+    }
+}
+
+#[inline(always)]
+fn square_jet<const N: usize>(order: usize, coefs: &[Point], u: f64, v: f64) -> Jet {
+    let (bu, bv) = (bernstein_of_size::<N>(u), bernstein_of_size::<N>(v));
+    tensor_jet(order, &bu, &bv, square(coefs))
+}
+
+/// The first N x N coefficients as rows.
+#[inline(always)]
+pub(crate) fn square<const N: usize>(coefs: &[Point]) -> &[[Point; N]; N] {
+    let (rows, _) = coefs.as_chunks::<N>();
+    rows.first_chunk::<N>().expect("a patch has (d+1)^2 coefficients")
+}
+
+/// [`bernstein`] of degree N - 1, which must be 2 or more.
+#[inline(always)]
+pub(crate) fn bernstein_of_size<const N: usize>(t: f64) -> BasisJet<N> {
+    let d = N - 1;
+    let mut values = [0.0; N];
+    values[0] = 1.0;
+    let (mut first, mut second) = ([0.0; N], [0.0; N]);
+    for degree in 1..N {
+        if degree + 1 == d {
+            second = differences(&differences(&values, d as f64), (d - 1) as f64);
+        }
+        if degree == d {
+            first = differences(&values, d as f64);
+        }
+        for i in (1..=degree).rev() {
+            values[i] = (1.0 - t) * values[i] + t * values[i - 1];
+        }
+        values[0] *= 1.0 - t;
+    }
+    [values, first, second]
+}
+
+/// factor (b_(i-1) - b_i).
+#[inline(always)]
+fn differences<const N: usize>(b: &[f64; N], factor: f64) -> [f64; N] {
+    let mut result = [0.0; N];
+    result[0] = -factor * b[0];
+    for i in 1..N {
+        result[i] = factor * (b[i - 1] - b[i]);
+    }
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patch::Patch;
+    use crate::point::{norm, sub};
+
+    /// Numbers without a pattern in -1..1.
+    fn coefs(count: usize) -> Vec<Point> {
+        let number = |k: usize| ((k * k + 7 * k) % 101) as f64 / 50.0 - 1.0;
+        (0..count).map(|k| [number(3 * k), number(3 * k + 1), number(3 * k + 2)]).collect()
+    }
+
+    /// The patch evaluated by the plain sums of `Patch::jet`.
+    #[test]
+    fn kernels_agree_with_the_plain_sums() {
+        for degree in 1..=crate::patch::MAX_DEGREE {
+            let coefs = coefs((degree + 1) * (degree + 1));
+            let patch = Patch::new([degree; 2], coefs.clone());
+            for at in [[0.0, 0.0], [1.0, 1.0], [0.3, 0.7], [0.99, 0.01], [1.0, 0.5], [1.2, -0.1]] {
+                let plain = patch.jet(at[0], at[1]).rows();
+                for (order, rows) in [(0, 1), (1, 3), (2, 6)] {
+                    let fast = patch_jet(order, degree, &coefs, at).rows();
+                    for k in 0..rows {
+                        let difference = norm(sub(fast[k], plain[k]));
+                        assert!(difference < 1e-14 * (degree * degree) as f64, "{degree} {order}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_asked_for_is_zero() {
+        let coefs = coefs(25);
+        assert_eq!(patch_jet(0, 4, &coefs, [0.4, 0.2]).rows()[1..], [[0.0; 3]; 5]);
+        assert_eq!(patch_jet(1, 4, &coefs, [0.4, 0.2]).rows()[3..], [[0.0; 3]; 3]);
+    }
+
+    #[test]
+    fn bases_of_fixed_size_agree_with_the_recursion() {
+        for t in [0.0, 0.25, 0.6, 1.0, 1.5] {
+            let (plain, fast) = (bernstein(5, t), bernstein_of_size::<6>(t));
+            for (a, b) in plain.iter().zip(&fast) {
+                assert!(a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-13), "{plain:?} {fast:?}");
+            }
+        }
+    }
+}

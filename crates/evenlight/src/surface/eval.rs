@@ -1,0 +1,105 @@
+//! Evaluation at any (quad, u, v): finding the piece, and asking it what is wanted.
+//!
+//! What is computed follows from the type of the answer ([`Answer`]): a position alone costs half of
+//! position and first derivatives, and a quarter of everything with curvature.
+
+use super::place::{from_sector, quadrant, to_sector};
+use super::{QuadId, Surface};
+use crate::mesh::isolation::{CORNERS, Piece};
+use crate::parallel::for_each_chunk;
+use crate::patch::{Answer, FirstJet, Jet};
+use crate::point::Point;
+
+impl Surface {
+    /// [`Surface::eval`] of what is wanted alone, which is told by the type: position, first
+    /// derivatives, second derivatives, or all with normal and curvature.
+    ///
+    /// ```
+    /// use evenlight::patch::FirstJet;
+    /// use evenlight::{Cage, Mesh, QuadId, Surface, SurfaceOptions};
+    ///
+    /// let square = vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+    /// let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]]))?;
+    /// let surface = Surface::build(cage, SurfaceOptions::default())?;
+    /// let at: FirstJet = surface.eval_as(QuadId(0), 0.5, 0.5).expect("there is a surface");
+    /// assert_eq!(at.p, [0.5, 0.5, 0.0]);
+    /// assert_eq!(at.normal(), [0.0, 0.0, 1.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn eval_as<A: Answer>(&self, quad: QuadId, u: f64, v: f64) -> Option<A> {
+        if u.is_nan() || v.is_nan() {
+            return None;
+        }
+        let mut piece = *self.plan.pieces[..self.num_quads()].get(quad.0 as usize)?;
+        let (mut at, mut zoom) = ([u.clamp(0.0, 1.0), v.clamp(0.0, 1.0)], 1.0);
+        loop {
+            match piece {
+                Piece::Omitted => return None,
+                Piece::Regular(net) => {
+                    let jet = self.regular_jet(A::ORDER, net, at).scaled_parameters(zoom);
+                    return Some(A::from_parts(jet, Jet::shape));
+                }
+                Piece::Sector { point, sector, corner } => {
+                    let at = to_sector(corner, at);
+                    let found: A = self.eval_around(point as usize, sector as usize, at);
+                    let change = |jet: &Jet| from_sector(corner, jet).scaled_parameters(zoom);
+                    return Some(found.in_parameters(change));
+                }
+                Piece::Split(first) => {
+                    let k = quadrant(at);
+                    piece = self.plan.pieces[first as usize + k];
+                    at = [2.0 * at[0] - CORNERS[k][0], 2.0 * at[1] - CORNERS[k][1]];
+                    zoom *= 2.0;
+                }
+            }
+        }
+    }
+
+    /// The position at (u,v) of `quad`, as [`Surface::eval`] gives it.
+    pub fn eval_position(&self, quad: QuadId, u: f64, v: f64) -> Option<Point> {
+        self.eval_as(quad, u, v)
+    }
+
+    /// Position and first derivatives at (u,v) of `quad`, as [`Surface::eval`] gives them.
+    pub fn eval_first(&self, quad: QuadId, u: f64, v: f64) -> Option<FirstJet> {
+        self.eval_as(quad, u, v)
+    }
+
+    /// Position, first and second derivatives at (u,v) of `quad`, as [`Surface::eval`] gives them.
+    pub fn eval_second(&self, quad: QuadId, u: f64, v: f64) -> Option<Jet> {
+        self.eval_as(quad, u, v)
+    }
+
+    /// Evaluates at many places (quad, u, v), with feature `parallel` on all threads. Answer k is
+    /// that of place k, the same bits as from [`Surface::eval_as`]; NaN where there is no surface.
+    ///
+    /// On large surfaces the time goes into fetching control points: places in the order of their
+    /// quads are several times as fast as places at random.
+    ///
+    /// # Panics
+    ///
+    /// If there are not as many answers as places.
+    ///
+    /// ```
+    /// use evenlight::{Cage, Mesh, QuadId, Surface, SurfaceOptions};
+    ///
+    /// let square = vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+    /// let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]]))?;
+    /// let surface = Surface::build(cage, SurfaceOptions::default())?;
+    /// let mut points = [[0.0; 3]; 2];
+    /// surface.eval_each(&[(QuadId(0), 0.0, 0.0), (QuadId(0), 0.5, 0.5)], &mut points);
+    /// assert_eq!(points, [[0.0, 0.0, 0.0], [0.5, 0.5, 0.0]]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn eval_each<A: Answer>(&self, places: &[(QuadId, f64, f64)], answers: &mut [A]) {
+        assert_eq!(places.len(), answers.len(), "there must be as many answers as places");
+        /// Enough to outweigh handing them to a thread.
+        const CHUNK: usize = 4096;
+        for_each_chunk(answers, CHUNK, |first, answers| {
+            for (answer, &(quad, u, v)) in answers.iter_mut().zip(&places[first..]) {
+                *answer = self.eval_as(quad, u, v).unwrap_or(A::NAN);
+            }
+        });
+    }
+}
