@@ -15,7 +15,7 @@ use evenlight::analyse::curvature::{
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::cap::CapKind;
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{SchemeKind, Surface, SurfaceOptions};
+use evenlight::{SchemeKind, Surface};
 
 use crate::cap::{self, CapArg};
 use crate::error::Failure;
@@ -100,10 +100,7 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(args.schemes.len(), quiet);
     let mut analyses = Vec::new();
     for &scheme in &args.schemes {
-        let options = SurfaceOptions {
-            boundary: args.boundary.rule(),
-            ..args.rules.options_among(&args.schemes, scheme)
-        };
+        let options = args.boundary.applied_to(args.rules.options_among(&args.schemes, scheme));
         progress.stage(format!("Analysing {}", scheme.name()));
         let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;

@@ -56,11 +56,8 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
         return args.fix.run(&args.cage, target, args.json, &args.output);
     }
     let result = input::read_mesh(&args.cage)?.and_then(Loaded::check);
-    let options = SurfaceOptions {
-        scheme: args.scheme,
-        boundary: args.boundary.rule(),
-        ..SurfaceOptions::default()
-    };
+    let options = SurfaceOptions { scheme: args.scheme, ..SurfaceOptions::default() };
+    let options = args.boundary.applied_to(options);
     let report = Report::of(&result, options);
     if args.json {
         args.output.write_json(&report)?;
@@ -139,9 +136,9 @@ struct FaceCentre {
 /// The rule of a point, and why it is not the chosen scheme.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct RuleName {
-    /// The name of a scheme, or "none" without a surface.
+    /// The name of a scheme, "fair-crease", or "none" without a surface.
     rule: &'static str,
-    /// Why the rule is Catmull-Clark's although another scheme was chosen; `null` if it was not.
+    /// Why it is not the rule of the chosen scheme; `null` if it is.
     reason: Option<&'static str>,
     /// Whether semi-sharp edges had to be refined away first.
     was_semi_sharp: bool,
@@ -264,9 +261,11 @@ impl Report {
 fn rule_name(cage: &Cage, point: &Extraordinary, options: SurfaceOptions) -> RuleName {
     let rule = point.is_covered.then(|| PointRule::of(cage, point, options));
     RuleName {
-        rule: rule.map_or("none", |rule| rule.scheme(options.scheme).name()),
+        rule: rule.map_or("none", |rule| rule.name(options.scheme)),
         reason: match rule {
-            Some(PointRule::CatmullClark(reason)) => Some(reason.name()),
+            Some(PointRule::CatmullClark(reason) | PointRule::FairCrease(reason)) => {
+                Some(reason.name())
+            }
             _ => None,
         },
         was_semi_sharp: point.was_semi_sharp,
@@ -280,6 +279,7 @@ impl fmt::Display for RuleName {
             None => f.write_str("left out")?,
             Some(PointRule::Scheme) => f.write_str(self.rule)?,
             Some(PointRule::CatmullClark(reason)) => write!(f, "cc: {reason}")?,
+            Some(PointRule::FairCrease(reason)) => write!(f, "fair rings: {reason}")?,
         }
         f.write_str(if self.was_semi_sharp { ", after semi-sharp creases have gone" } else { "" })
     }

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use evenlight::mesh::BoundaryRule;
+use evenlight::surface::CreaseRings;
 use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
 
 use crate::input::CageArg;
@@ -43,13 +44,27 @@ pub struct SurfaceArgs {
     pub q: QArg,
 }
 
-/// What happens at the boundary.
+/// What happens at the boundary and beside creases.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct BoundaryArg {
     /// The rule at the boundary of an open cage [default: what the file says, or else
     /// edge-and-corner]
     #[arg(long, value_enum, value_name = "RULE")]
     pub boundary: Option<Boundary>,
+
+    /// The rings of vertices on infinitely sharp creases and the boundary that are not regular there;
+    /// the curves of creases are the same with both
+    #[arg(long, value_enum, value_name = "RINGS", default_value_t = Creases::Cc)]
+    pub creases: Creases,
+}
+
+/// The rings beside creases by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Creases {
+    /// Catmull-Clark's, as in OpenSubdiv: no tangent plane from four faces between sharp edges on
+    Cc,
+    /// Least energy: tangent plane and bounded curvature, for up to 12 faces
+    Fair,
 }
 
 /// The rules at the boundary by their names.
@@ -64,13 +79,22 @@ pub enum Boundary {
 }
 
 impl BoundaryArg {
-    /// The rule in the library's terms.
-    pub fn rule(self) -> Option<BoundaryRule> {
+    /// The rule at the boundary in the library's terms.
+    fn rule(self) -> Option<BoundaryRule> {
         self.boundary.map(|boundary| match boundary {
             Boundary::None => BoundaryRule::None,
             Boundary::EdgeOnly => BoundaryRule::EdgeOnly,
             Boundary::EdgeAndCorner => BoundaryRule::EdgeAndCorner,
         })
+    }
+
+    /// The options with what happens at boundaries and creases.
+    pub fn applied_to(self, options: SurfaceOptions) -> SurfaceOptions {
+        let creases = match self.creases {
+            Creases::Cc => CreaseRings::CatmullClark,
+            Creases::Fair => CreaseRings::Fair,
+        };
+        SurfaceOptions { boundary: self.rule(), creases, ..options }
     }
 }
 
@@ -112,7 +136,7 @@ impl RulesArg {
 impl SurfaceArgs {
     /// Scheme and rules in the library's terms.
     pub fn options(&self) -> SurfaceOptions {
-        SurfaceOptions { boundary: self.boundary.rule(), ..self.rules.options(self.scheme) }
+        self.boundary.applied_to(self.rules.options(self.scheme))
     }
 }
 

@@ -187,6 +187,7 @@ fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
     let cage = input::read_cage(cage)?;
     let build = |&scheme| -> Result<Surface, Failure> {
         let options = args.surface.rules.options_among(schemes, scheme);
+        let options = args.surface.boundary.applied_to(options);
         let mut surface = input::build(Arc::clone(&cage), options, source)?;
         edits.apply(&mut surface)?;
         cap::close(&mut surface, kind, args.caps.rings.into())?;

@@ -70,6 +70,31 @@ fn faces_at_a_boundary_are_counted_and_said_so_on_stderr() {
     assert!(stderr(&output).starts_with("warning: ") && stderr(&output).contains(sentence));
 }
 
+/// Fair rings are for irregular vertices of creases and boundaries, on request.
+#[test]
+fn fair_rings_beside_creases_are_said() {
+    let sheet = cage("features/boundary_valences.obj");
+    let report = json(&run(&["check", arg(&sheet), "--json"]));
+    let fair = json(&run(&["check", arg(&sheet), "--json", "--creases", "fair"]));
+    let rules = |report: &serde_json::Value| -> Vec<[serde_json::Value; 2]> {
+        let points = report["extraordinary"].as_array().unwrap().iter();
+        points.map(|p| ["rule", "reason"].map(|key| p["rule"][key].clone())).collect()
+    };
+    let is_fair = |rule: &[serde_json::Value; 2]| rule[0] == json!("fair-crease");
+    assert!(!rules(&report).iter().any(is_fair));
+    assert_eq!(rules(&fair).iter().filter(|rule| is_fair(rule)).count(), 4);
+    for (before, after) in rules(&report).iter().zip(&rules(&fair)) {
+        let changed = [json!("fair-crease"), before[1].clone()];
+        assert!(after == before || (*after == changed && before[0] == json!("cc")));
+    }
+    let text = stdout(&run(&["check", arg(&sheet), "--creases", "fair"]));
+    assert!(text.contains("    4      fair rings: on the boundary"), "{text}");
+    let capped = ["patches", arg(&sheet), "--creases", "fair", "--cap", "auto", "-o", "-"];
+    let output = run(&capped);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("fair rings beside creases and boundaries have no caps"));
+}
+
 #[test]
 fn text_tells_the_same_as_json() {
     let text = stdout(&run_on(CUBE, &["check", "-"]));

@@ -45,6 +45,17 @@ fn every_style_and_scheme_gives_another_picture() {
     }
 }
 
+/// The options of the boundary and of creases are those of the surface that is drawn.
+#[test]
+fn boundaries_and_creases_are_seen() {
+    let sheet = cage("features/boundary_valences.obj");
+    let fixed = ["render", arg(&sheet), "-o", "-", "--samples", "1", "--size", "120x90"];
+    let look = |args: &[&str]| run(&[&fixed[..], &["--style", "mean"], args].concat()).stdout;
+    let looks = [look(&[]), look(&["--creases", "fair"]), look(&["--boundary", "edge-only"])];
+    assert!(looks[0].starts_with(b"\x89PNG\r\n"));
+    assert!(looks[0] != looks[1] && looks[0] != looks[2]);
+}
+
 #[test]
 fn the_same_arguments_give_the_same_bytes() {
     let [one, two] =

@@ -1,5 +1,5 @@
-//! Small dense linear algebra: Householder QR with column pivoting, and least squares under linear
-//! conditions by it.
+//! Small dense linear algebra: Householder QR with column pivoting, least squares under linear
+//! conditions by it, and LU.
 //!
 //! Plain loops in a fixed order, so that the results have the same bits everywhere.
 
@@ -47,6 +47,12 @@ impl Matrix {
         result
     }
 
+    pub(crate) fn identity(size: usize) -> Self {
+        let mut result = Self::zeros(size, size);
+        (0..size).for_each(|k| result[(k, k)] = 1.0);
+        result
+    }
+
     /// The rows `range`.
     pub(crate) fn select_rows(&self, range: std::ops::Range<usize>) -> Self {
         let entries = self.entries[self.columns * range.start..self.columns * range.end].to_vec();
@@ -72,10 +78,63 @@ impl Matrix {
         result
     }
 
+    /// `w * self`.
+    pub(crate) fn scaled(&self, w: f64) -> Self {
+        let entries = self.entries.iter().map(|x| w * x).collect();
+        Self { rows: self.rows, columns: self.columns, entries }
+    }
+
+    /// The largest absolute value of an entry.
+    pub(crate) fn largest(&self) -> f64 {
+        self.entries.iter().fold(0.0, |most, x| most.max(x.abs()))
+    }
+
     /// `self += w * other`.
     pub(crate) fn add(&mut self, w: f64, other: &Self) {
         debug_assert_eq!((self.rows, self.columns), (other.rows, other.columns));
         add_to(&mut self.entries, w, &other.entries);
+    }
+}
+
+impl Matrix {
+    /// A^-1 b by elimination with the largest pivot of each column; entries are not finite if A is
+    /// singular.
+    pub(crate) fn solve(mut self, mut b: Self) -> Self {
+        debug_assert_eq!((self.rows, self.rows), (self.columns, b.rows));
+        let n = self.rows;
+        for k in 0..n {
+            let size = |i: usize| self[(i, k)].abs();
+            let pivot = (k..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
+            self.swap_rows(k, pivot);
+            b.swap_rows(k, pivot);
+            for i in k + 1..n {
+                let w = -self[(i, k)] / self[(k, k)];
+                self.add_row(i, w, k);
+                b.add_row(i, w, k);
+            }
+        }
+        for k in (0..n).rev() {
+            let pivot = self[(k, k)];
+            b.row_mut(k).iter_mut().for_each(|x| *x /= pivot);
+            (0..k).for_each(|i| b.add_row(i, -self[(i, k)], k));
+        }
+        b
+    }
+
+    fn swap_rows(&mut self, i: usize, k: usize) {
+        (0..self.columns)
+            .for_each(|j| self.entries.swap(self.columns * i + j, self.columns * k + j));
+    }
+
+    /// row i += w row k, i not k.
+    fn add_row(&mut self, i: usize, w: f64, k: usize) {
+        if w == 0.0 {
+            return;
+        }
+        let (low, high) = self.entries.split_at_mut(self.columns * i.max(k));
+        let (first, last) =
+            (&mut low[self.columns * i.min(k)..][..self.columns], &mut high[..self.columns]);
+        if i < k { add_to(first, w, last) } else { add_to(last, w, first) }
     }
 }
 
@@ -269,18 +328,22 @@ mod tests {
         result
     }
 
-    fn largest(a: &Matrix) -> f64 {
-        a.entries.iter().fold(0.0, |most, x| most.max(x.abs()))
-    }
-
     #[test]
     fn least_squares_leave_an_orthogonal_rest() {
         let (a, b) = (some(9, 4, 0.3), some(9, 2, 0.7));
         let x = Qr::new(a.clone()).least_squares(b.clone());
         let mut rest = a.times(&x);
         rest.add(-1.0, &b);
-        assert!(largest(&a.transposed().times(&rest)) < 1e-14);
-        assert!(largest(&rest) > 1e-2);
+        assert!(a.transposed().times(&rest).largest() < 1e-14);
+        assert!(rest.largest() > 1e-2);
+    }
+
+    #[test]
+    fn solving_is_the_inverse_of_multiplying() {
+        let (a, x) = (some(9, 9, 0.3), some(9, 3, 0.7));
+        let mut error = a.clone().solve(a.times(&x));
+        error.add(-1.0, &x);
+        assert!(error.largest() < 1e-13);
     }
 
     #[test]
@@ -293,9 +356,9 @@ mod tests {
         let (x, free) = qr.solutions(7, &repeated.times(&exact));
         let mut error = repeated.times(&x);
         error.add(-1.0, &repeated.times(&exact));
-        assert!(largest(&error) < 1e-14);
+        assert!(error.largest() < 1e-14);
         assert_eq!(free.num_columns(), 4);
-        assert!(largest(&repeated.times(&free)) < 1e-14);
+        assert!(repeated.times(&free).largest() < 1e-14);
     }
 
     #[test]
@@ -315,7 +378,7 @@ mod tests {
             all.extend([vec![1.0, 0.0], vec![0.0, 1.0]]);
             Matrix::from_rows(2, &all)
         };
-        assert!(largest(&conditions.times(&with_data(&x))) < 1e-14);
+        assert!(conditions.times(&with_data(&x)).largest() < 1e-14);
         let energy =
             |x: &Matrix| objective.times(&with_data(x)).entries.iter().map(|x| x * x).sum::<f64>();
         let (_, free) = Qr::new(conditions.select_columns(0..6).transposed())

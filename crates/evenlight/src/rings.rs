@@ -41,7 +41,8 @@ use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::point::{Point, Vector, add, add_scaled, cross, dot, norm, scale, sub, unit};
 use crate::scheme::{
-    FanLimit, PatchParameters, Rules, SchemeKind, Subdominant, Variant, fan_rules,
+    FairFan, FanLimit, PatchParameters, Rules, SchemeKind, Subdominant, Variant, fair_rules,
+    fan_rules,
 };
 
 /// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
@@ -68,6 +69,17 @@ impl ValenceRules {
         let (rules, limit) = fan_rules(shape);
         let subdominant = Subdominant::without_plane(&rules, limit.lambda);
         Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
+    }
+
+    /// The fair rules of a fan on one side of a crease; `None` if there are none.
+    pub(crate) fn of_fair_fan(shape: Fan) -> Option<Self> {
+        let FairFan { rules, limit, subdominant } = fair_rules(shape)?.clone();
+        Some(Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) })
+    }
+
+    /// Whether they are the fair rules of a fan on one side of a crease.
+    pub(crate) fn is_fair_fan(&self) -> bool {
+        self.fan.is_some() && self.rules.split > 1
     }
 
     /// Of a fan between sharp edges, which has no turns, its limit.
@@ -211,9 +223,9 @@ impl Rings {
     pub(crate) fn over_fan(net: &[Point], rules: Arc<ValenceRules>) -> Option<Self> {
         let limit = rules.fan.as_ref()?;
         let (center, normal) = (limit.limit_point(net), limit.normal(net));
-        let nodes = &net[..rules.rules.num_nodes()];
-        let relative: Vec<Vector> = nodes.iter().map(|&p| sub(p, center)).collect();
-        Some(Self { normal, ..Self::start(&relative, center, None, rules) })
+        let mut rings = Self::start(&limit.first_net(net), center, None, rules.clone());
+        rings.normal = normal.unwrap_or(rings.normal);
+        Some(rings)
     }
 
     /// The surface of a control net relative to its limit point `center`, with the given or the

@@ -68,11 +68,12 @@ fn quadratic(surface: &Surface, point: usize, change: &Change) -> Result<Quadrat
     let place = &surface.extraordinary_points()[point];
     let valence = place.valence;
     let Some(default) = surface.rings(point).quadratic() else {
-        let reason = match place.rule {
-            PointRule::CatmullClark(reason) => reason.to_string(),
-            PointRule::Scheme => "no quadratic".to_owned(),
+        let (rule, reason) = match place.rule {
+            PointRule::CatmullClark(reason) => ("Catmull-Clark's rule", reason.to_string()),
+            PointRule::FairCrease(reason) => ("the fair rule beside a crease", reason.to_string()),
+            PointRule::Scheme => ("Catmull-Clark's rule", "no quadratic".to_owned()),
         };
-        return Err(format!("the point has Catmull-Clark's rule ({reason}), which has no q"));
+        return Err(format!("the point has {rule} ({reason}), which has no q"));
     };
     let q = match change {
         Change::Affine { matrix, translation } => moved(default, *matrix, *translation),

@@ -108,6 +108,9 @@ pub enum CapError {
         /// The patches along each side of a square of its rings.
         split: usize,
     },
+    /// No caps for fair rings beside creases.
+    #[error("fair rings beside creases and boundaries have no caps; Catmull-Clark's there have")]
+    FairCrease,
 }
 
 /// The highest valence with caps of the kind asked for: beyond it sectors are slivers, the rules would
@@ -288,6 +291,9 @@ pub(crate) enum ValenceCap {
 
 impl ValenceCap {
     pub(crate) fn new(rules: &ValenceRules, kind: CapKind) -> Result<Self, CapError> {
+        if rules.is_fair_fan() {
+            return Err(CapError::FairCrease);
+        }
         if plain::is_plain(rules) {
             return Ok(Self::Plain(Box::new(PlainCap::new(rules, kind))));
         }

@@ -20,6 +20,11 @@
 //! eigenvalue 1 that is w c + sum w_k p_k = 0; w is known for creases (1/6, 2/3, 1/6) and corners
 //! (c alone), and iterated for darts.
 
+mod fair;
+
+pub use fair::MAX_FAIR_FACES;
+pub(crate) use fair::{FairFan, fair_rules, is_fair};
+
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
@@ -38,6 +43,9 @@ pub(crate) struct FanLimit {
     /// The limit point of a net, the node c being the last.
     point: Row,
     tangents: Tangents,
+    /// The first net of the rules by that of the fan, c being the last node; `None` if it is that
+    /// without c.
+    first_net: Option<Vec<Row>>,
 }
 
 /// How the tangent plane at the centre is found.
@@ -48,6 +56,8 @@ enum Tangents {
     None,
     /// Two rows, c being the last node; the normal is the product of the directions.
     Rows([Row; 2]),
+    /// The rules have a tangent plane of their own.
+    OfRules,
     /// A single face at a crease: along the crease, and the bend of the crease, or if that is
     /// straight across the face.
     Tip,
@@ -75,7 +85,8 @@ pub(crate) fn rules(shape: Fan) -> (Rules, FanLimit) {
         quadratic: None,
         guide: None,
     };
-    (rules, FanLimit { shape, lambda, point: net.limit.into_iter().collect(), tangents })
+    let point = net.limit.into_iter().collect();
+    (rules, FanLimit { shape, lambda, point, tangents, first_net: None })
 }
 
 impl FanLimit {
@@ -88,7 +99,7 @@ impl FanLimit {
     pub(crate) fn tangent_rows(&self) -> Option<&[Row; 2]> {
         match &self.tangents {
             Tangents::Rows(rows) => Some(rows),
-            Tangents::None | Tangents::Tip => None,
+            Tangents::None | Tangents::Tip | Tangents::OfRules => None,
         }
     }
 
@@ -115,19 +126,31 @@ impl FanLimit {
         sum
     }
 
-    /// The unit normal at the limit point; NaN if there is no tangent plane.
-    pub(crate) fn normal(&self, net: &[Point]) -> Vector {
+    /// The first net of the rules relative to the limit point, from the net of the fan.
+    pub(crate) fn first_net(&self, net: &[Point]) -> Vec<Vector> {
+        let center = self.limit_point(net);
+        let relative: Vec<Vector> = net.iter().map(|&p| sub(p, center)).collect();
+        match &self.first_net {
+            Some(rows) => rows.iter().map(|row| apply(row, &relative)).collect(),
+            None => relative[..relative.len() - 1].to_vec(),
+        }
+    }
+
+    /// The unit normal at the limit point, NaN if there is no tangent plane; `None` if the rules
+    /// know it themselves.
+    pub(crate) fn normal(&self, net: &[Point]) -> Option<Vector> {
         let center = self.limit_point(net);
         let relative: Vec<Vector> = net.iter().map(|&p| sub(p, center)).collect();
         let size = relative.iter().map(|&p| norm(p)).fold(0.0, f64::max);
         let [along, across] = match &self.tangents {
-            Tangents::None => return [f64::NAN; 3],
+            Tangents::None => return Some([f64::NAN; 3]),
+            Tangents::OfRules => return None,
             Tangents::Rows(rows) => rows.each_ref().map(|row| apply(row, &relative)),
             Tangents::Tip => tip_tangents(net, size),
         };
         let (normal, longer) = (cross(along, across), norm(along).max(norm(across)));
         let is_plane = longer > FLATTEST * size && norm(normal) > FLATTEST * longer * longer;
-        if is_plane { unit(normal) } else { [f64::NAN; 3] }
+        Some(if is_plane { unit(normal) } else { [f64::NAN; 3] })
     }
 }
 

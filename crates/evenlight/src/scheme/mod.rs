@@ -15,7 +15,8 @@ mod subdominant;
 mod tables;
 
 pub use contraction::{Contraction, ContractionError, Variant};
-pub(crate) use fan::{FanLimit, rules as fan_rules};
+pub use fan::MAX_FAIR_FACES;
+pub(crate) use fan::{FairFan, FanLimit, fair_rules, is_fair, rules as fan_rules};
 pub(crate) use guided::{guide_monomials, sampled_guide};
 pub(crate) use rules::{PatchParameters, Row, Rules};
 pub(crate) use subdominant::Subdominant;

@@ -66,6 +66,17 @@ impl Subdominant {
         Self { lambda, part: Part::Fourier { right: none.clone(), left: none } }
     }
 
+    /// Of rules that do not commute with turning: the nets x and y of the characteristic map, and the
+    /// rows that find their coefficients.
+    pub(crate) fn with_plane(lambda: f64, right: [Vec<f64>; 2], left: [Vec<f64>; 2]) -> Self {
+        // 2 (a x - b y) with a = left x / 2, b = -left y / 2.
+        let pairs = |[x, y]: [Vec<f64>; 2], w: [f64; 2]| {
+            x.into_iter().zip(y).map(|(x, y)| [w[0] * x, w[1] * y]).collect()
+        };
+        let (right, left) = (pairs(right, [1.0, 1.0]), pairs(left, [0.5, -0.5]));
+        Self { lambda, part: Part::Fourier { right, left } }
+    }
+
     fn of_linear_terms(rules: &Rules, lambda: f64) -> Self {
         let nodes = [rules.nodes_per_sector, rules.control_nodes_per_sector()];
         let characteristic = attracted_net(rules, lambda);

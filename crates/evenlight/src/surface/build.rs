@@ -96,16 +96,15 @@ fn kept(rule: PointRule, fan: Fan, options: SurfaceOptions) -> Arc<ValenceRules>
 }
 
 fn make(rule: PointRule, fan: Fan, options: SurfaceOptions) -> ValenceRules {
-    if !fan.is_smooth() {
-        return ValenceRules::of_fan(fan);
-    }
     let rules = match rule {
+        PointRule::FairCrease(_) => ValenceRules::of_fair_fan(fan),
+        PointRule::CatmullClark(_) if !fan.is_smooth() => Some(ValenceRules::of_fan(fan)),
         PointRule::Scheme => ValenceRules::new(options.scheme, options.variant(), fan.faces),
         PointRule::CatmullClark(_) => {
             ValenceRules::new(SchemeKind::CatmullClark, Variant::default(), fan.faces)
         }
     };
-    rules.expect("has_rules was asked before, and Catmull-Clark has all")
+    rules.expect("it was asked before whether there are rules, and Catmull-Clark has all")
 }
 
 pub(super) fn refined_positions(cage: &Cage, plan: &Plan) -> Vec<Vec<Point>> {

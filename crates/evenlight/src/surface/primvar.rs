@@ -7,13 +7,14 @@
 //! | face-varying | a surface of its own on the channel's own net, whose seams are boundaries, see [`FaceVaryingRule`]; with the rule "all" like varying |
 //!
 //! Where the net of a face-varying channel is smooth around an extraordinary point it has the
-//! surface's scheme there; elsewhere Catmull-Clark's rules, as positions have at boundaries.
+//! surface's scheme there; elsewhere Catmull-Clark's rules, also if positions have
+//! fair rings beside creases ([`CreaseRings::Fair`]).
 //!
 //! Channels are built when they are first asked for.
 
 use std::sync::{Arc, OnceLock};
 
-use super::{QuadId, Surface, SurfaceOptions};
+use super::{CreaseRings, QuadId, Surface, SurfaceOptions};
 use crate::cap::CapOptions;
 use crate::mesh::channel::{ChannelNet, triple};
 use crate::mesh::{Cage, FaceVaryingRule, Interpolation, Mesh, Primvar};
@@ -90,8 +91,9 @@ impl Channel {
             Interpolation::FaceVarying => {
                 let boundary = options.boundary.unwrap_or(cage.tags().boundary);
                 let net = ChannelNet::new(cage, primvar, boundary);
-                // The channel has a boundary rule of its own.
-                let options = SurfaceOptions { boundary: None, ..options };
+                // The channel has a boundary rule of its own, and at its seams what others make of it.
+                let creases = CreaseRings::CatmullClark;
+                let options = SurfaceOptions { boundary: None, creases, ..options };
                 let surface = |first| Self::surface(net.mesh(primvar, first), options, caps);
                 Self::Smooth(parts.map(surface).collect())
             }

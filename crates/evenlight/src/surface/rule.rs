@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use super::SurfaceOptions;
+use super::{CreaseRings, SurfaceOptions};
 use crate::mesh::isolation::{Extraordinary, Place};
 use crate::mesh::{Cage, VertexRule};
-use crate::scheme::SchemeKind;
+use crate::scheme::{SchemeKind, is_fair};
 
 /// The rule of an extraordinary point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,6 +14,8 @@ pub enum PointRule {
     Scheme,
     /// Catmull-Clark's rings: exactly those of its subdivision with creases and corners.
     CatmullClark(Reason),
+    /// Fair rings beside a crease, which is the reason; only with [`CreaseRings::Fair`].
+    FairCrease(Reason),
 }
 
 /// Why a point does not get the chosen scheme.
@@ -39,19 +41,25 @@ impl PointRule {
             return if has_rules { Self::Scheme } else { Self::CatmullClark(Reason::Valence) };
         }
         let on_boundary = matches!(point.place, Place::Vertex(v) if cage.topology().is_boundary(v));
-        Self::CatmullClark(match point.fan.rule {
+        let reason = match point.fan.rule {
             _ if on_boundary => Reason::Boundary,
             VertexRule::Corner => Reason::Corner,
             VertexRule::Crease => Reason::Crease,
             VertexRule::Smooth => Reason::Dart,
-        })
+        };
+        if options.creases == CreaseRings::Fair && is_fair(point.fan) {
+            return Self::FairCrease(reason);
+        }
+        Self::CatmullClark(reason)
     }
 
-    /// The scheme whose rings the point has.
-    pub fn scheme(self, chosen: SchemeKind) -> SchemeKind {
+    /// A word for files and tables: the name of the scheme whose rings the point has, `chosen` being
+    /// that of the surface, or "fair-crease".
+    pub fn name(self, chosen: SchemeKind) -> &'static str {
         match self {
-            Self::Scheme => chosen,
-            Self::CatmullClark(_) => SchemeKind::CatmullClark,
+            Self::Scheme => chosen.name(),
+            Self::CatmullClark(_) => SchemeKind::CatmullClark.name(),
+            Self::FairCrease(_) => "fair-crease",
         }
     }
 }
