@@ -6,10 +6,8 @@
 // The cage may hold OpenSubdiv's tags (`t crease`, `t corner`, `t hole`, `t creasemethod`,
 // `t interpolateboundary`, `t facevaryinginterpolateboundary`). Every parametric quad (a quad,
 // or one corner of another face) is evaluated at the 10 x 10 parameters of GRID, v fastest, by
-// Bfr in double precision with both approximation levels at their most, 10. Where the file has
+// Far in double precision with features isolated to the deepest level, 10. Where the file has
 // `vt`, they follow in each of the six modes, unless the second argument is `--no-uv`.
-#include <opensubdiv/bfr/refinerSurfaceFactory.h>
-#include <opensubdiv/bfr/surface.h>
 #include <opensubdiv/far/patchMap.h>
 #include <opensubdiv/far/patchTableFactory.h>
 #include <opensubdiv/far/primvarRefiner.h>
@@ -77,9 +75,11 @@ static void readTag(std::istringstream &words, Cage &cage) {
     for (std::string &s : strings) words >> s;
     if (!words) fail("short tag " + name);
     if (name == "crease") {
-        for (int i = 0; i + 1 < numInts; ++i) {
+        // Pairs, or a chain: an odd number of vertices, or one sharpness for each of its edges.
+        bool chain = numInts % 2 == 1 || (numInts > 2 && numFloats == numInts - 1);
+        for (int i = 0, edge = 0; i + 1 < numInts; i += chain ? 1 : 2, ++edge) {
             cage.creases.insert(cage.creases.end(), {ints[i], ints[i + 1]});
-            cage.creaseSharpness.push_back(floats[numFloats > 1 ? i : 0]);
+            cage.creaseSharpness.push_back(floats.at(numFloats > 1 ? edge : 0));
         }
     } else if (name == "corner") {
         for (int i = 0; i < numInts; ++i) {
@@ -95,6 +95,8 @@ static void readTag(std::istringstream &words, Cage &cage) {
                                           : Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
     } else if (name == "creasemethod") {
         cage.chaikin = strings.at(0) == "chaikin";
+    } else if (name == "smoothtriangles") {
+        if (strings.at(0) != "catmark") fail("rules for triangles are not compared");
     } else if (name != "facevaryinginterpolateboundary") {
         fail("unknown tag " + name);
     }
@@ -162,6 +164,7 @@ static void print(std::string &out, double x) {
     out += s;
 }
 
+// A value of three numbers, of which texture coordinates use two.
 struct Point {
     double x[3];
     void Clear(void * = nullptr) { x[0] = x[1] = x[2] = 0; }
@@ -170,101 +173,105 @@ struct Point {
     }
 };
 
-// A line of the three results of `width` numbers each.
-static void print(std::string &out, double const *results, int width) {
+// A line of the three results, of which the first `width` numbers count.
+static void print(std::string &out, Point const results[3], int width) {
     for (int i = 0; i < 3 * width; ++i) {
         if (i) out += ' ';
-        print(out, results[i]);
+        print(out, results[i / width].x[i % width]);
     }
     out += '\n';
 }
 
-// The control points of all patches.
-static std::vector<Point> patchPoints(Cage const &cage, Far::TopologyRefiner const &mesh, Far::PatchTable const &table) {
-    int refined = mesh.GetNumVerticesTotal();
-    std::vector<Point> points(size_t(refined) + table.GetNumLocalPoints());
-    for (size_t i = 0; i < cage.positions.size(); ++i) points[i / 3].x[i % 3] = cage.positions[i];
-    Far::PrimvarRefinerReal<double> interpolation(mesh);
-    Point *from = points.data();
-    for (int level = 1; level <= mesh.GetMaxLevel(); ++level) {
-        Point *to = from + mesh.GetLevel(level - 1).GetNumVertices();
-        interpolation.Interpolate(level, from, to);
-        from = to;
-    }
-    if (table.GetNumLocalPoints() > 0) {
-        table.GetLocalPointStencilTable<double>()->UpdateValues(points.data(), points.data() + refined);
-    }
-    return points;
-}
+// The surface of the positions, or of the texture coordinates.
+class Limit {
+public:
+    Limit(Far::TopologyRefiner &mesh, bool ofTexture, std::vector<double> const &values);
+    // Value and derivatives at (u, v) of a quad in Far's order, whose sides are of this length.
+    void evaluate(int quad, double u, double v, double side, Point results[3]) const;
+    bool has(int quad) const { return map->FindPatch(quad, .5, .5) != nullptr; }
 
-static std::string positions(Cage const &cage) {
-    auto mesh = refiner(cage, -1);
+private:
+    void refine(Far::TopologyRefiner const &mesh, std::vector<double> const &values);
+
+    bool texture;
+    std::unique_ptr<Far::PatchTable> table;
+    std::unique_ptr<Far::PatchMap> map;
+    std::vector<Point> points;
+};
+
+Limit::Limit(Far::TopologyRefiner &mesh, bool ofTexture, std::vector<double> const &values) : texture(ofTexture) {
+    int channel = 0;
     Far::PatchTableFactory::Options options(DEPTH);
     options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
     options.useInfSharpPatch = true;
     options.SetPatchPrecision<double>();
-    mesh->RefineAdaptive(options.GetRefineAdaptiveOptions());
-    std::unique_ptr<Far::PatchTable> table(Far::PatchTableFactory::Create(*mesh, options));
-    std::vector<Point> points = patchPoints(cage, *mesh, *table);
-    Far::PatchMap map(*table);
+    options.SetFVarPatchPrecision<double>();
+    options.generateFVarTables = texture;
+    options.generateFVarLegacyLinearPatches = false;
+    options.numFVarChannels = texture ? 1 : 0;
+    options.fvarChannelIndices = &channel;
+    auto refinement = options.GetRefineAdaptiveOptions();
+    refinement.considerFVarChannels = texture;
+    mesh.RefineAdaptive(refinement);
+    table.reset(Far::PatchTableFactory::Create(mesh, options));
+    map.reset(new Far::PatchMap(*table));
+    refine(mesh, values);
+}
+
+// Makes the control points of all patches.
+void Limit::refine(Far::TopologyRefiner const &mesh, std::vector<double> const &values) {
+    int width = texture ? 2 : 3;
+    int refined = texture ? mesh.GetNumFVarValuesTotal(0) : mesh.GetNumVerticesTotal();
+    int local = texture ? table->GetNumLocalPointsFaceVarying(0) : table->GetNumLocalPoints();
+    points.resize(size_t(refined) + local);
+    for (size_t i = 0; i < values.size(); ++i) points[i / width].x[i % width] = values[i];
+    Far::PrimvarRefinerReal<double> interpolation(mesh);
+    Point *from = points.data();
+    for (int level = 1; level <= mesh.GetMaxLevel(); ++level) {
+        auto const &coarse = mesh.GetLevel(level - 1);
+        Point *to = from + (texture ? coarse.GetNumFVarValues(0) : coarse.GetNumVertices());
+        if (texture) interpolation.InterpolateFaceVarying(level, from, to, 0);
+        else interpolation.Interpolate(level, from, to);
+        from = to;
+    }
+    if (local == 0) return;
+    auto const *stencils = texture ? table->GetLocalPointFaceVaryingStencilTable<double>(0)
+                                   : table->GetLocalPointStencilTable<double>();
+    stencils->UpdateValues(points.data(), points.data() + refined);
+}
+
+void Limit::evaluate(int quad, double u, double v, double side, Point results[3]) const {
+    double weights[3][20];
+    auto const *patch = map->FindPatch(quad, u, v);
+    if (texture) table->EvaluateBasisFaceVarying(*patch, u, v, weights[0], weights[1], weights[2]);
+    else table->EvaluateBasis(*patch, u, v, weights[0], weights[1], weights[2]);
+    Far::ConstIndexArray vertices = texture ? table->GetPatchFVarValues(*patch, 0) : table->GetPatchVertices(*patch);
+    for (int d = 0; d < 3; ++d) {
+        results[d].Clear();
+        for (int j = 0; j < vertices.size(); ++j) {
+            results[d].AddWithWeight(points[vertices[j]], (d > 0 ? side : 1) * weights[d][j]);
+        }
+    }
+}
+
+// All quads of the positions' surface (`mode` < 0), or of the texture coordinates.
+static std::string section(Cage const &cage, int mode) {
+    auto mesh = refiner(cage, mode);
+    Limit limit(*mesh, mode >= 0, mode < 0 ? cage.positions : cage.uvs);
     Far::PtexIndices quads(*mesh);
     std::string out;
     for (int face = 0; face < int(cage.sizes.size()); ++face) {
         int size = cage.sizes[face], first = quads.GetFaceId(face);
-        bool found = map.FindPatch(first, .5, .5);
+        bool found = limit.has(first);
         if (!found) out += "omitted " + std::to_string(face) + '\n';
         for (int k = 0; found && k < (size == 4 ? 1 : size); ++k) {
             out += "quad " + std::to_string(face) + ' ' + std::to_string(k) + '\n';
             for (int i = 0; i < 100; ++i) {
-                double u = GRID[i / 10], v = GRID[i % 10], w[3][20];
-                auto const *patch = map.FindPatch(first + k, u, v);
-                table->EvaluateBasis(*patch, u, v, w[0], w[1], w[2]);
-                Far::ConstIndexArray vertices = table->GetPatchVertices(*patch);
-                Point results[3] = {};
-                for (int d = 0; d < 3; ++d) {
-                    // Far counts the refinement that makes quads of an n-gon as one of its quads.
-                    double unit = d > 0 && size != 4 ? .5 : 1;
-                    for (int j = 0; j < vertices.size(); ++j) {
-                        results[d].AddWithWeight(points[vertices[j]], unit * w[d][j]);
-                    }
-                }
-                print(out, results[0].x, 3);
+                Point results[3];
+                // Far counts the refinement that makes quads of an n-gon as one of its quads.
+                limit.evaluate(first + k, GRID[i / 10], GRID[i % 10], size == 4 ? 1 : .5, results);
+                print(out, results, mode < 0 ? 3 : 2);
             }
-        }
-    }
-    return out;
-}
-
-// The texture coordinates of one parametric quad; `corner` is -1 for a quad of the cage.
-static void writeTexture(Bfr::Surface<double> const &surface, std::vector<double> const &values, int corner, std::string &out) {
-    Bfr::Surface<double>::PointDescriptor stride(2);
-    std::vector<double> points(2 * size_t(surface.GetNumPatchPoints()));
-    surface.PreparePatchPoints(values.data(), stride, points.data(), stride);
-    for (int i = 0; i < 100; ++i) {
-        double inQuad[2] = {GRID[i / 10], GRID[i % 10]}, at[2] = {inQuad[0], inQuad[1]}, results[6];
-        if (corner >= 0) surface.GetParameterization().ConvertNormalizedSubFaceToCoord(corner, inQuad, at);
-        surface.Evaluate(at, points.data(), stride, results, results + 2, results + 4);
-        // The quads of an n-gon have sides of 1/2 in the parameters of the n-gon.
-        for (int k = 2; corner >= 0 && k < 6; ++k) results[k] *= .5;
-        print(out, results, 2);
-    }
-}
-
-static std::string textures(Cage const &cage, int mode) {
-    auto mesh = refiner(cage, mode);
-    typedef Bfr::RefinerSurfaceFactory<> Factory;
-    Factory::Options options;
-    options.SetApproxLevelSmooth(DEPTH).SetApproxLevelSharp(DEPTH);
-    Factory factory(*mesh, options);
-    std::string out;
-    for (int face = 0; face < int(cage.sizes.size()); ++face) {
-        Bfr::Surface<double> surface;
-        bool found = factory.InitFaceVaryingSurface(face, &surface, 0);
-        int size = cage.sizes[face];
-        if (!found) out += "omitted " + std::to_string(face) + '\n';
-        for (int k = 0; found && k < (size == 4 ? 1 : size); ++k) {
-            out += "quad " + std::to_string(face) + ' ' + std::to_string(k) + '\n';
-            writeTexture(surface, cage.uvs, size == 4 ? -1 : k, out);
         }
     }
     return out;
@@ -277,14 +284,14 @@ int main(int argc, char **argv) {
     const char *name = strrchr(argv[1], '/');
     printf("# Limit surface of %s by OpenSubdiv %d.%d.%d (Debian libosd-dev), written by tools/osd_oracle/oracle.cpp:\n",
            name ? name + 1 : argv[1], OPENSUBDIV_VERSION_MAJOR, OPENSUBDIV_VERSION_MINOR, OPENSUBDIV_VERSION_PATCH);
-    printf("# double precision, isolation and approximation levels %d; positions by Far, texture coordinates by Bfr.\n", DEPTH);
+    printf("# double precision, features isolated to level %d, by Far.\n", DEPTH);
     printf("# Per quad (face, corner) and parameters (u, v), v fastest, each out of 0 .03 .125 .27 .4 .5 .61 .75 .9 1:\n");
     printf("# value, derivative along u, derivative along v.\n");
-    printf("positions\n%s", positions(cage).c_str());
+    printf("positions\n%s", section(cage, -1).c_str());
     // Many modes give the same; then the first of them is named.
     std::vector<std::string> modes;
     for (int mode = 0; hasUvs && mode < 6; ++mode) {
-        modes.push_back(textures(cage, mode));
+        modes.push_back(section(cage, mode));
         int first = int(std::find(modes.begin(), modes.end(), modes.back()) - modes.begin());
         if (first < mode) printf("uv %s as %s\n", MODES[mode], MODES[first]);
         else printf("uv %s\n%s", MODES[mode], modes.back().c_str());

@@ -106,6 +106,25 @@ fn soup(off: f64) -> Mesh {
     Mesh::new(corners.map(at).collect(), faces)
 }
 
+/// A pole of quads whose last corner is repeated, as some programs write triangles.
+#[test]
+fn repeated_corners_that_follow_each_other_are_joined() {
+    let pole = Mesh::new(points(6), (0..5).map(|k| [1 + k, 1 + (k + 1) % 5, 0, 0]));
+    assert!(Cage::new(pole.clone()).is_err());
+    let after = repaired(&pole, merge(0.0));
+    assert_eq!(shown(&after), ["repeated corners of 5 faces joined: 0, 1, 2, 3, 4"]);
+    let triangles: Vec<Vec<u32>> = (0..5).map(|k| vec![1 + k, 1 + (k + 1) % 5, 0]).collect();
+    assert_eq!(faces(&after.mesh), triangles);
+    assert!(Cage::new(after.mesh).is_ok());
+    // A face of two vertices goes, one that comes back to a vertex later is not changed.
+    let mesh = Mesh::new(points(5), [vec![0, 0, 1, 1], vec![0, 1, 2, 0, 3, 4]]);
+    let after = repaired(&mesh, merge(0.0));
+    let text =
+        ["repeated corners of 1 face joined: 0", "1 face deleted, without 3 corners left: 0"];
+    assert_eq!(shown(&after), text);
+    assert_eq!(faces(&after.mesh), [[0, 1, 2, 0, 3, 4]]);
+}
+
 #[test]
 fn vertices_are_merged_within_the_distance_and_no_further() {
     let closed = |mesh: Mesh| Cage::new(mesh).is_ok_and(|cage| cage.num_boundary_edges() == 0);

@@ -6,7 +6,8 @@ const INFINITE: f64 = 10.0;
 
 /// All cages with their names.
 pub fn all() -> Vec<(&'static str, Cage)> {
-    [creases(), vertices(), stars(), boundaries(), polygons(), textures()].concat()
+    [creases(), vertices(), stars(), boundaries(), polygons(), textures(), dependent_textures()]
+        .concat()
 }
 
 fn creases() -> Vec<(&'static str, Cage)> {
@@ -168,6 +169,17 @@ fn stars() -> Vec<(&'static str, Cage)> {
             star(5, 1, &[(1, INFINITE)]).about("a crease ends in a vertex of valence 5"),
         ),
         (
+            "star5_ending",
+            star(5, 1, &[(0, 0.7), (2, 0.4), (3, 0.3)])
+                .about("three creases end together in a vertex of valence 5"),
+        ),
+        (
+            "star6_chaikin",
+            star(6, 1, &[(0, 0.7), (2, 2.1), (3, 3.3), (5, 4.6)])
+                .about("four creases meet by Chaikin's rule in a vertex of valence 6")
+                .chaikin(),
+        ),
+        (
             "star6_junction",
             star(6, 1, &[(0, INFINITE), (2, INFINITE), (3, INFINITE)])
                 .about("three infinitely sharp creases meet in a vertex of valence 6"),
@@ -313,4 +325,48 @@ fn textures() -> Vec<(&'static str, Cage)> {
                 .textured(&[0, 1, 0, 0, 1, 0], &[], &[]),
         ),
     ]
+}
+
+/// Seams through creases that end.
+fn dependent_textures() -> Vec<(&'static str, Cage)> {
+    vec![
+        (
+            "uv_dependent",
+            halved(&[(1, 1.5), (2, 1.8)])
+                .about("creases on one side of a seam, which end together, hold the other side"),
+        ),
+        (
+            "uv_dependent_infinite",
+            halved(&[(1, INFINITE), (4, 1.5)])
+                .about("an infinitely sharp crease on one side of a seam, 1.5 on the other"),
+        ),
+        (
+            "uv_dependent_seam",
+            halved(&[(0, 3.2), (1, 1.5), (3, 2.4)]).about(
+                "a crease on one side of a seam holds the other; the seam is sharp for longer",
+            ),
+        ),
+        (
+            "uv_dependent_corner",
+            halved(&[(2, 2.7)])
+                .about("a vertex of sharpness 1.3 on a seam, and a crease on one side")
+                .corner(0, 1.3),
+        ),
+        (
+            "uv_chaikin",
+            halved(&[(0, 3.2), (1, 1.4), (2, 2.3), (4, 0.9)])
+                .about("creases along and on both sides of a seam by Chaikin's rule")
+                .chaikin(),
+        ),
+    ]
+}
+
+/// A small star of 6 sectors with creases on spokes, and a seam along the spokes 0 and 3.
+fn halved(creases: &[(usize, f64)]) -> Cage {
+    let mut cage = Cage::star(6, 1);
+    for &(spoke, sharpness) in creases {
+        let line = cage.spoke(spoke).to_vec();
+        cage = cage.crease(&line, sharpness);
+    }
+    cage.textured(&[0, 0, 0, 1, 1, 1], &[], &[])
 }

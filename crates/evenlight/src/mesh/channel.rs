@@ -17,8 +17,9 @@
 //! What a boundary does is the channel's [`FaceVaryingRule`]: its vertices lie on smooth curves, or
 //! are sharp. Creases and sharp vertices of the cage hold for the channel too.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::sharpness::{Beyond, half_edges_of, is_semi_sharp, single};
 use super::{
     BoundaryRule, Cage, Corner, Crease, FaceVaryingRule, Faces, HalfEdgeId, INFINITELY_SHARP, Mesh,
     Primvar, Tags, Topology, VertexId,
@@ -33,6 +34,8 @@ pub(crate) struct ChannelNet {
     pub(crate) tags: Tags,
     /// The number of the value at every vertex.
     pub(crate) values: Vec<u32>,
+    /// The semi-sharp edges of the cage at vertices on seams that are not the channel's there.
+    pub(crate) beyond: BTreeMap<VertexId, Beyond>,
 }
 
 impl ChannelNet {
@@ -51,15 +54,16 @@ impl ChannelNet {
             of_corner: vec![VertexId(0); values.len()],
             vertices: Vec::new(),
             corners: Vec::new(),
+            beyond: BTreeMap::new(),
         };
         (0..topology.num_vertices() as u32).for_each(|v| splitter.split(VertexId(v)));
         let tags = splitter.tags();
-        let Splitter { of_corner, vertices, .. } = splitter;
+        let Splitter { of_corner, vertices, beyond, .. } = splitter;
         let mut faces = Faces::default();
         for face in topology.faces().ids() {
             faces.push(topology.faces().corner_range(face).map(|corner| of_corner[corner]));
         }
-        Self { faces, tags, values: vertices }
+        Self { faces, tags, values: vertices, beyond }
     }
 
     /// The net as a mesh whose positions are the numbers `first`, `first` + 1 and `first` + 2 of
@@ -82,8 +86,8 @@ fn edge_sharpness(cage: &Cage) -> Vec<f64> {
     let topology = cage.topology();
     let mut sharpness = vec![0.0; topology.half_edges().len()];
     for crease in &cage.tags().creases {
-        for h in super::sharpness::half_edges_of(topology, crease.edge) {
-            sharpness[h.index()] = crease.sharpness;
+        for h in half_edges_of(topology, crease.edge) {
+            sharpness[h.index()] = single(crease.sharpness);
         }
     }
     sharpness
@@ -93,7 +97,7 @@ fn edge_sharpness(cage: &Cage) -> Vec<f64> {
 fn vertex_sharpness(cage: &Cage) -> Vec<f64> {
     let mut sharpness = vec![0.0; cage.positions().len()];
     for corner in &cage.tags().corners {
-        sharpness[corner.vertex.index()] = corner.sharpness;
+        sharpness[corner.vertex.index()] = single(corner.sharpness);
     }
     sharpness
 }
@@ -114,7 +118,7 @@ impl Fan {
 
     /// The sharpness of the semi-sharp edges between the faces.
     fn semi_sharp(&self) -> impl Iterator<Item = f64> + '_ {
-        self.inner.iter().copied().filter(|&s| 0.0 < s && s < INFINITELY_SHARP)
+        self.inner.iter().copied().filter(|&s| is_semi_sharp(s))
     }
 }
 
@@ -129,6 +133,7 @@ struct Splitter<'a> {
     of_corner: Vec<VertexId>,
     vertices: Vec<u32>,
     corners: Vec<Corner>,
+    beyond: BTreeMap<VertexId, Beyond>,
 }
 
 impl Splitter<'_> {
@@ -136,12 +141,17 @@ impl Splitter<'_> {
     fn split(&mut self, v: VertexId) {
         let fans = self.fans(v);
         let sharpness = self.fan_sharpness(v, &fans);
-        for (fan, sharpness) in fans.iter().zip(sharpness) {
+        for (k, (fan, sharpness)) in fans.iter().zip(sharpness).enumerate() {
             let vertex = VertexId(self.vertices.len() as u32);
             self.vertices.push(fan.value);
             fan.faces.iter().for_each(|h| self.of_corner[h.index()] = vertex);
+            let beyond = self.beyond(v, &fans, k, sharpness);
+            let sharpness = sharpness.max(beyond.vertex());
             if sharpness > 0.0 {
                 self.corners.push(Corner { vertex, sharpness });
+            }
+            if beyond != Beyond::default() {
+                self.beyond.insert(vertex, beyond);
             }
         }
     }
@@ -155,6 +165,11 @@ impl Splitter<'_> {
         let Some(twin) = self.topology.twin(h) else { return true };
         let next = |h| self.topology.next(h);
         self.value(h) != self.value(next(twin)) || self.value(next(h)) != self.value(twin)
+    }
+
+    /// Whether the edge of `h` is a seam between two faces.
+    fn is_inner_seam(&self, h: HalfEdgeId) -> bool {
+        self.topology.twin(h).is_some() && self.is_seam(h)
     }
 
     /// The fans at `v`, counter-clockwise.
@@ -187,9 +202,7 @@ impl Splitter<'_> {
     fn fan_sharpness(&self, v: VertexId, fans: &[Fan]) -> Vec<f64> {
         let own = self.vertex_sharpness[v.index()];
         let is_boundary = self.topology.is_boundary(v);
-        let seams = fans.iter().map(|fan| fan.faces[0]).filter(|&h| self.is_seam(h));
-        let num_seams = seams.filter(|&h| self.topology.twin(h).is_some()).count();
-        if num_seams == 0 {
+        if !fans.iter().any(|fan| self.is_inner_seam(fan.faces[0])) {
             let is_sharp = is_boundary && self.is_sharp_boundary(fans);
             return vec![if is_sharp { f64::INFINITY } else { own }; fans.len()];
         }
@@ -200,7 +213,7 @@ impl Splitter<'_> {
             let alone = || fans.iter().filter(|other| other.value == fan.value).count() == 1;
             let is_tip = fan.faces.len() == 1 && self.rule != FaceVaryingRule::None;
             let is_sharp = is_tip || fan.has_infinite_edge() || !alone();
-            if is_sharp { f64::INFINITY } else { own.max(self.dependent_sharpness(fans, fan)) }
+            if is_sharp { f64::INFINITY } else { own }
         });
         sharpness.collect()
     }
@@ -236,13 +249,23 @@ impl Splitter<'_> {
             }
     }
 
-    /// Beside a fan with semi-sharp edges, which is a corner for some refinements, one without
-    /// is a corner for as long.
-    fn dependent_sharpness(&self, fans: &[Fan], fan: &Fan) -> f64 {
-        if !self.has_dependence() || fans.len() != 2 || fan.semi_sharp().next().is_some() {
-            return 0.0;
+    /// The semi-sharp edges at `v` that are not of fan `own`, which is so sharp itself. Beside a fan
+    /// with semi-sharp edges, which is a corner for some refinements, one without is a corner for
+    /// as long; but what is sharp itself depends on nothing else.
+    fn beyond(&self, v: VertexId, fans: &[Fan], own: usize, sharpness: f64) -> Beyond {
+        let depends = self.has_dependence()
+            && fans.len() == 2
+            && sharpness == 0.0
+            && fans[own].semi_sharp().next().is_none();
+        let others = fans.iter().enumerate().filter(|&(k, _)| k != own);
+        let others = others.flat_map(|(_, fan)| fan.semi_sharp());
+        let seams = self.topology.ring(v).filter(|&h| self.is_inner_seam(h));
+        let seams = seams.map(|h| self.edge_sharpness[h.index()]).filter(|&s| is_semi_sharp(s));
+        if depends {
+            Beyond { holding: others.collect(), apart: seams.collect(), ..Beyond::default() }
+        } else {
+            Beyond { apart: others.chain(seams).collect(), ..Beyond::default() }
         }
-        fans.iter().flat_map(Fan::semi_sharp).fold(0.0, f64::max)
     }
 
     /// The tags of the channel.

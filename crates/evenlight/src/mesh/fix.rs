@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!  merge d        vertices not further than d from a lower-numbered one become that one; corners
-//!                 of a face that fall together are one, faces with fewer than 3 are deleted
+//!                 of a face that fall together, or did before, are one; faces with fewer than
+//!                 3 are deleted
 //!  flip           in every piece whose faces disagree, the fewer are flipped
 //!  split          every fan of faces around a vertex gets a vertex of its own; an edge with
 //!                 three faces or more joins none of them (but what is joined round both its
@@ -35,7 +36,7 @@ use draft::Draft;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Repairs {
     /// Merge vertices that are not further apart than this, in the units of the mesh; 0 merges
-    /// those at the same place.
+    /// those at the same place. Repeated corners of a face are joined.
     pub merge: Option<f64>,
     /// Flip faces that disagree with most of their piece.
     pub flip: bool,
@@ -65,6 +66,11 @@ pub enum Change {
         pairs: Vec<[VertexId; 2]>,
         /// The largest distance between the two.
         distance: f64,
+    },
+    /// Corners that followed each other at one vertex became one.
+    Joined {
+        /// The faces, deleted ones among them.
+        faces: Vec<FaceId>,
     },
     /// Faces lost all but two of their corners and were deleted.
     Collapsed {
@@ -101,6 +107,10 @@ impl Change {
                     count(pairs.len(), "vertex", "vertices"),
                     list(pairs, pair)
                 )
+            }
+            Self::Joined { faces } => {
+                let count = count(faces.len(), "face", "faces");
+                format!("repeated corners of {count} joined: {}", list(faces, face))
             }
             Self::Collapsed { faces } => {
                 let count = count(faces.len(), "face", "faces");

@@ -23,12 +23,12 @@
 //! All levels describe one surface, so pieces of different levels join as smoothly as pieces
 //! of the same. Topology and sharpness only: nothing here knows positions.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::fan::{Features, PlacedFan, sectors};
 use super::nets::RegularNet;
 use super::refine::{Level, Origin};
-use super::sharpness::{Sharpness, half_edges_of};
+use super::sharpness::{Beyond, Sharpness, half_edges_of, single};
 use super::{
     BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, Topology, VertexId, VertexRule,
 };
@@ -64,7 +64,7 @@ pub struct Extraordinary {
 /// All extraordinary points, vertices first, each kind in the order of its numbers; those without
 /// a surface around them, which only their valence makes extraordinary, at the end.
 pub fn extraordinary_points(cage: &Cage, boundary: BoundaryRule) -> Vec<Extraordinary> {
-    let mut points = Plan::new(cage, boundary).points;
+    let mut points = Plan::new(cage, boundary, BTreeMap::new()).points;
     points.extend(uncovered_points(cage, boundary));
     points
 }
@@ -120,7 +120,7 @@ fn open_vertices(cage: &Cage) -> Vec<bool> {
     let mut is_sharp = vec![false; topology.half_edges().len()];
     for crease in &cage.tags().creases {
         for h in half_edges_of(topology, crease.edge) {
-            is_sharp[h.index()] = crease.sharpness >= INFINITELY_SHARP;
+            is_sharp[h.index()] = single(crease.sharpness) >= INFINITELY_SHARP;
         }
     }
     let mut is_open = vec![false; topology.num_vertices()];
@@ -185,10 +185,14 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    pub(crate) fn new(cage: &Cage, boundary: BoundaryRule) -> Self {
+    pub(crate) fn new(
+        cage: &Cage,
+        boundary: BoundaryRule,
+        beyond: BTreeMap<VertexId, Beyond>,
+    ) -> Self {
         let t = cage.topology();
         let omitted = omitted_faces(cage, boundary);
-        let mut sharpness = vec![Sharpness::new(t, cage.tags(), boundary)];
+        let mut sharpness = vec![Sharpness::new(t, cage.tags(), boundary).with_beyond(beyond)];
         let mut levels: Vec<Level> = Vec::new();
         let mut planner = Planner::new(t);
         let mut split = planner.cover_cage(&Features::new(t, &sharpness[0]), &omitted);

@@ -13,7 +13,7 @@ pub mod fix;
 pub mod isolation;
 mod nets;
 mod refine;
-mod sharpness;
+pub(crate) mod sharpness;
 mod tags;
 mod topology;
 

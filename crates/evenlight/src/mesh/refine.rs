@@ -102,10 +102,14 @@ impl Level {
         }
         self.mark_cuts(coarse, &mut edges);
         let vertices = self.origins.iter().map(|&origin| match origin {
-            Origin::Vertex(v) => sharpness.child_vertex(v),
+            Origin::Vertex(v) => sharpness.child_vertex(coarse, v),
             _ => 0.0,
         });
-        sharpness.refined(edges, vertices.collect())
+        let beyond = self.origins.iter().enumerate().filter_map(|(child, &origin)| match origin {
+            Origin::Vertex(v) => Some((VertexId(child as u32), sharpness.child_beyond(coarse, v)?)),
+            _ => None,
+        });
+        sharpness.refined(edges, vertices.collect(), beyond.collect())
     }
 
     /// Where this part ends and the surface does not, sharpness is unknown.
@@ -269,8 +273,8 @@ impl<const N: usize> Masks<'_, N> {
         if rule == VertexRule::Smooth {
             return now;
         }
-        let child_vertex = self.sharpness.child_vertex(v);
-        let child = self.sharpness.child_spokes(&spokes);
+        let child_vertex = self.sharpness.child_vertex(self.coarse, v);
+        let child = self.sharpness.child_spokes(&spokes, v);
         let next_rule = rule_of(child_vertex, child.iter().copied());
         if next_rule == rule {
             return now;
@@ -281,7 +285,7 @@ impl<const N: usize> Masks<'_, N> {
             .map(|(spoke, &sharpness)| Spoke { sharpness, ..*spoke })
             .collect();
         let changes = spokes.iter().zip(&after).map(|(a, b)| [a.sharpness, b.sharpness]);
-        let weight = fraction(changes.chain([[vertex, child_vertex]]));
+        let weight = fraction(changes.chain(self.sharpness.vertex_changes(self.coarse, v)));
         blend(weight, now, self.by_rule(v, next_rule, &after))
     }
 

@@ -14,6 +14,10 @@
 //! 1/4 of the mean of the other semi-sharp edges at the vertex ([`CreaseMethod::Chaikin`]); from
 //! [`INFINITELY_SHARP`] on it stays. Where a rule ends between two levels, the old and the new rule
 //! are blended by what was left of the sharpness.
+//!
+//! All this is in single precision, as in OpenSubdiv, or surfaces would differ by up to 1e-8.
+
+use std::collections::BTreeMap;
 
 use super::{BoundaryRule, CreaseMethod, HalfEdgeId, INFINITELY_SHARP, Tags, Topology, VertexId};
 
@@ -49,6 +53,48 @@ pub(crate) struct Sharpness {
     edges: Vec<f64>,
     /// Of every vertex; empty with `edges`.
     vertices: Vec<f64>,
+    /// Of vertices of a face-varying channel at its seams.
+    beyond: BTreeMap<VertexId, Beyond>,
+}
+
+/// Semi-sharp edges of the cage at a vertex of a face-varying channel that are not the channel's
+/// there: those between faces beyond a seam, and the seams themselves.
+///
+/// ```text
+///         :          v, below the seam ======, has one edge of the channel, w;
+///       a :          it is held by a, if it depends on the fan above;
+///   ======v===b==    b is apart: it only counts in Chaikin's averages
+///         |
+///         w
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Beyond {
+    /// The sharpness of those that keep the vertex a corner while any of them is sharp.
+    pub(crate) holding: Vec<f64>,
+    /// That of the others.
+    pub(crate) apart: Vec<f64>,
+    /// Whether nothing holds the vertex any more since the last refinement, but a seam was still
+    /// semi-sharp: then OpenSubdiv keeps it a corner once more, and we do the same.
+    pub(crate) lingers: bool,
+}
+
+/// The sharpness of a vertex that lingers: it ends in the next refinement, and weighs nothing.
+const LINGERING: f64 = 1e-30;
+
+impl Beyond {
+    /// As the vertex is a corner for as long as it is held, so sharp is it.
+    pub(crate) fn vertex(&self) -> f64 {
+        let lingering = if self.lingers { LINGERING } else { 0.0 };
+        self.holding.iter().copied().fold(lingering, f64::max)
+    }
+
+    fn is_held(&self) -> bool {
+        self.holding.iter().any(|&s| s > 0.0)
+    }
+
+    fn all(&self) -> impl Iterator<Item = f64> + '_ {
+        self.holding.iter().chain(&self.apart).copied().filter(|&s| is_semi_sharp(s))
+    }
 }
 
 /// An edge at a vertex, seen from there.
@@ -64,15 +110,15 @@ impl Sharpness {
     /// The sharpness of a cage. Tags must name edges and vertices of the cage, as `Cage` checks.
     pub(crate) fn new(topology: &Topology, tags: &Tags, boundary: BoundaryRule) -> Self {
         let is_closed = topology.half_edges().all(|h| topology.twin(h).is_some());
-        let is_smooth = tags.creases.iter().all(|c| c.sharpness <= 0.0)
-            && tags.corners.iter().all(|c| c.sharpness <= 0.0);
+        let is_smooth = tags.creases.iter().all(|c| single(c.sharpness) <= 0.0)
+            && tags.corners.iter().all(|c| single(c.sharpness) <= 0.0);
         if is_closed && is_smooth {
             return Self::default();
         }
         let mut edges: Vec<f64> = vec![0.0; topology.half_edges().len()];
         for crease in &tags.creases {
             for h in half_edges_of(topology, crease.edge) {
-                edges[h.index()] = crease.sharpness;
+                edges[h.index()] = single(crease.sharpness);
             }
         }
         for h in topology.half_edges().filter(|&h| topology.twin(h).is_none()) {
@@ -80,7 +126,7 @@ impl Sharpness {
         }
         let mut vertices = vec![0.0; topology.num_vertices()];
         for corner in &tags.corners {
-            vertices[corner.vertex.index()] = corner.sharpness;
+            vertices[corner.vertex.index()] = single(corner.sharpness);
         }
         if boundary == BoundaryRule::EdgeAndCorner {
             let tips = (0..topology.num_vertices() as u32).map(VertexId);
@@ -88,7 +134,12 @@ impl Sharpness {
                 vertices[v.index()] = f64::INFINITY;
             }
         }
-        Self { method: tags.crease_method, edges, vertices }
+        Self { method: tags.crease_method, edges, vertices, beyond: BTreeMap::new() }
+    }
+
+    /// With the edges beyond the seams of a channel.
+    pub(crate) fn with_beyond(self, beyond: BTreeMap<VertexId, Beyond>) -> Self {
+        Self { beyond, ..self }
     }
 
     /// Whether the surface is closed and nothing of it sharp.
@@ -157,34 +208,71 @@ impl Sharpness {
         if self.method == CreaseMethod::Uniform || !is_semi_sharp(sharpness) {
             return lowered(sharpness);
         }
-        let semi_sharp: Vec<f64> = self
-            .spokes(topology, v)
-            .iter()
-            .map(|spoke| spoke.sharpness)
-            .filter(|&s| is_semi_sharp(s) || s.is_nan())
-            .collect();
-        chaikin(sharpness, &semi_sharp)
+        chaikin(sharpness, &self.averaged(&self.spokes(topology, v), v))
     }
 
     /// The sharpness of the halves at `v` of all its edges.
-    pub(crate) fn child_spokes(&self, spokes: &[Spoke]) -> Vec<f64> {
-        let all = || spokes.iter().map(|spoke| spoke.sharpness);
+    pub(crate) fn child_spokes(&self, spokes: &[Spoke], v: VertexId) -> Vec<f64> {
+        self.children(spokes.iter().map(|spoke| spoke.sharpness), spokes, v)
+    }
+
+    /// What edges at `v` become, of which `spokes` are the channel's.
+    fn children(&self, of: impl Iterator<Item = f64>, spokes: &[Spoke], v: VertexId) -> Vec<f64> {
         if self.method == CreaseMethod::Uniform {
-            return all().map(lowered).collect();
+            return of.map(lowered).collect();
         }
-        let semi_sharp: Vec<f64> = all().filter(|&s| is_semi_sharp(s)).collect();
-        all().map(|s| if is_semi_sharp(s) { chaikin(s, &semi_sharp) } else { lowered(s) }).collect()
+        let all = self.averaged(spokes, v);
+        of.map(|s| if is_semi_sharp(s) { chaikin(s, &all) } else { lowered(s) }).collect()
+    }
+
+    /// The semi-sharp edges at `v`, over which Chaikin's rule averages, and unknown ones.
+    fn averaged(&self, spokes: &[Spoke], v: VertexId) -> Vec<f64> {
+        let own = spokes.iter().map(|spoke| spoke.sharpness);
+        let own = own.filter(|&s| is_semi_sharp(s) || s.is_nan());
+        own.chain(self.beyond.get(&v).into_iter().flat_map(Beyond::all)).collect()
+    }
+
+    /// How what makes `v` itself a corner changes: its sharpness, or that of the edges that hold it.
+    pub(crate) fn vertex_changes(&self, topology: &Topology, v: VertexId) -> Vec<[f64; 2]> {
+        match (self.beyond.get(&v), self.child_beyond(topology, v)) {
+            (Some(_), Some(then)) if then.lingers => vec![[self.vertex(v), LINGERING]],
+            (Some(now), Some(then)) if now.is_held() => {
+                now.holding.iter().zip(&then.holding).map(|(&a, &b)| [a, b]).collect()
+            }
+            _ => vec![[self.vertex(v), lowered(self.vertex(v))]],
+        }
     }
 
     /// The sharpness of `v` after a refinement.
-    pub(crate) fn child_vertex(&self, v: VertexId) -> f64 {
-        lowered(self.vertex(v))
+    pub(crate) fn child_vertex(&self, topology: &Topology, v: VertexId) -> f64 {
+        self.vertex_changes(topology, v).iter().fold(0.0, |most, &[_, then]| f64::max(most, then))
+    }
+
+    /// The edges beyond the seams at `v` after a refinement.
+    pub(crate) fn child_beyond(&self, topology: &Topology, v: VertexId) -> Option<Beyond> {
+        let now = self.beyond.get(&v)?;
+        let spokes = self.spokes(topology, v);
+        let children = |edges: &[f64]| self.children(edges.iter().copied(), &spokes, v);
+        let (holding, apart) = (children(&now.holding), children(&now.apart));
+        let then = Beyond { holding, apart, lingers: false };
+        let lingers = now.is_held() && !then.is_held() && then.apart.iter().any(|&s| s > 0.0);
+        Some(Beyond { lingers, ..then })
     }
 
     /// The sharpness of a refined level, edge by edge in the order of its half-edges.
-    pub(crate) fn refined(&self, edges: Vec<f64>, vertices: Vec<f64>) -> Self {
-        Self { method: self.method, edges, vertices }
+    pub(crate) fn refined(
+        &self,
+        edges: Vec<f64>,
+        vertices: Vec<f64>,
+        beyond: BTreeMap<VertexId, Beyond>,
+    ) -> Self {
+        Self { method: self.method, edges, vertices, beyond }
     }
+}
+
+/// Sharpness as OpenSubdiv keeps it.
+pub(crate) fn single(sharpness: f64) -> f64 {
+    f64::from(sharpness as f32)
 }
 
 /// Whether the rule of a vertex changes in this refinement or later.
@@ -206,8 +294,9 @@ fn chaikin(sharpness: f64, all: &[f64]) -> f64 {
     if all.len() < 2 {
         return lowered(sharpness);
     }
-    let others = (all.iter().sum::<f64>() - sharpness) / (all.len() - 1) as f64;
-    lowered(0.75 * sharpness + 0.25 * others)
+    let (own, sum) = (sharpness as f32, all.iter().fold(0.0, |sum, &s| sum + s as f32));
+    let others = (sum - own) / (all.len() - 1) as f32;
+    lowered(f64::from(0.75 * own + 0.25 * others))
 }
 
 /// The weight of the rule that ends, of a vertex and edges whose sharpness goes from the first to
@@ -216,11 +305,11 @@ pub(crate) fn fraction(changes: impl IntoIterator<Item = [f64; 2]>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for [before, after] in changes {
         if before > 0.0 && after <= 0.0 {
-            sum += before;
+            sum += before as f32;
             count += 1.0;
         }
     }
-    if count == 0.0 { 0.0 } else { f64::min(sum / count, 1.0) }
+    if count == 0.0 { 0.0 } else { f64::from(f32::min(sum / count, 1.0)) }
 }
 
 /// The one or two half-edges of the edge between two vertices; none if there is no such edge.

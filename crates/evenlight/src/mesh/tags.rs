@@ -59,7 +59,7 @@ pub const INFINITELY_SHARP: f64 = 10.0;
 pub struct Crease {
     /// The ends of the edge.
     pub edge: [VertexId; 2],
-    /// From 0 (smooth) to [`INFINITELY_SHARP`] or more.
+    /// From 0 (smooth) to [`INFINITELY_SHARP`] or more; surfaces take it in single precision.
     pub sharpness: f64,
 }
 
@@ -68,7 +68,7 @@ pub struct Crease {
 pub struct Corner {
     /// The vertex.
     pub vertex: VertexId,
-    /// From 0 (smooth) to [`INFINITELY_SHARP`] or more.
+    /// From 0 (smooth) to [`INFINITELY_SHARP`] or more; surfaces take it in single precision.
     pub sharpness: f64,
 }
 

@@ -185,7 +185,9 @@ impl Rules {
 
     /// The default q of a control net; `None` for schemes without q.
     pub(crate) fn default_quadratic(&self, net: &[[f64; 3]]) -> Option<Expansion> {
-        self.quadratic.as_ref().map(|part| part.from_net.each_ref().map(|row| weighted(row, net)))
+        self.quadratic
+            .as_ref()
+            .map(|part| part.from_net.each_ref().map(|row| weighted(row, |k| net[k])))
     }
 
     /// The control net with the nodes of q, given in sector 0.
@@ -206,7 +208,7 @@ impl Rules {
         let mut refined = Vec::with_capacity(net.len());
         for s in 0..self.turns() {
             let seen = turned(net, s * self.nodes_per_sector);
-            refined.extend(self.refine.iter().map(|row| weighted(row, &seen)));
+            refined.extend(self.refine.iter().map(|row| weighted(row, |k| seen[k])));
         }
         refined
     }
@@ -326,10 +328,14 @@ impl Rules {
             1 => (0, s * self.patches_per_sector()),
             _ => (s * self.nodes_per_sector, 0),
         };
-        let (old, new) = (turned(old, by), turned(new, by));
+        // Not copied in turned order: nets may be large, and a patch is soon made.
+        let node = |net: &[[f64; 3]], k: usize| {
+            let at = k + by;
+            net[if at < net.len() { at } else { at - net.len() }]
+        };
         let rule = &self.patches[own + which];
         let coef = |(a, b): (&Row, &Row)| {
-            let (old, new) = (weighted(a, &old), weighted(b, &new));
+            let (old, new) = (weighted(a, |k| node(old, k)), weighted(b, |k| node(new, k)));
             let along = |k: usize| old[k] + scale[k] * new[k];
             [along(0), along(1), along(2)]
         };
@@ -353,12 +359,12 @@ fn turned(net: &[[f64; 3]], by: usize) -> Vec<[f64; 3]> {
     [ahead, behind].concat()
 }
 
-/// A row applied to a net whose sector 0 is the row's.
+/// A row applied to the nodes of a net.
 #[inline]
-fn weighted(row: &Row, net: &[[f64; 3]]) -> [f64; 3] {
+fn weighted(row: &Row, node: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
     let mut sum = [0.0; 3];
-    for &(node, w) in row {
-        add_scaled(&mut sum, w, net[node]);
+    for &(k, w) in row {
+        add_scaled(&mut sum, w, node(k));
     }
     sum
 }

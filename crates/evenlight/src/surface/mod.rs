@@ -28,9 +28,11 @@ pub use place::{PatchPlace, PlacedPatch, Role};
 pub use primvar::PrimvarJet;
 pub use rule::{PointRule, Reason};
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use crate::mesh::isolation::{Piece, Plan};
+use crate::mesh::sharpness::Beyond;
 use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, VertexId};
 use crate::net::Quadratic;
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
@@ -158,8 +160,17 @@ impl Surface {
         cage: impl Into<Arc<Cage>>,
         options: SurfaceOptions,
     ) -> Result<Self, SurfaceError> {
-        let cage = cage.into();
-        let plan = Plan::new(&cage, options.boundary.unwrap_or(cage.tags().boundary));
+        Self::build_channel(cage.into(), options, BTreeMap::new())
+    }
+
+    /// The surface over the net of a channel; `beyond` are the edges beyond its seams.
+    fn build_channel(
+        cage: Arc<Cage>,
+        options: SurfaceOptions,
+        beyond: BTreeMap<VertexId, Beyond>,
+    ) -> Result<Self, SurfaceError> {
+        let boundary = options.boundary.unwrap_or(cage.tags().boundary);
+        let plan = Plan::new(&cage, boundary, beyond);
         let rules = rules_of_points(&cage, &plan, options)?;
         let refined = refined_positions(&cage, &plan);
         let around = |(p, (_, rules)): (usize, &(_, _))| rings(&cage, &plan, &refined, p, rules);

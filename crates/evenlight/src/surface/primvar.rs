@@ -12,12 +12,14 @@
 //!
 //! Channels are built when they are first asked for.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use super::{CreaseRings, QuadId, Surface, SurfaceOptions};
 use crate::cap::CapOptions;
 use crate::mesh::channel::{ChannelNet, triple};
-use crate::mesh::{Cage, FaceVaryingRule, Interpolation, Mesh, Primvar};
+use crate::mesh::sharpness::Beyond;
+use crate::mesh::{Cage, FaceVaryingRule, Interpolation, Mesh, Primvar, VertexId};
 use crate::patch::Jet;
 
 /// The value of a primvar and its derivatives by the parameters of a quad; numbers beyond the
@@ -94,12 +96,14 @@ impl Channel {
                 // The channel has a boundary rule of its own, and at its seams what others make of it.
                 let creases = CreaseRings::CatmullClark;
                 let options = SurfaceOptions { boundary: None, creases, ..options };
-                let surface = |first| Self::surface(net.mesh(primvar, first), options, caps);
+                let beyond = || net.beyond.clone();
+                let surface =
+                    |first| Self::surface(net.mesh(primvar, first), options, caps, beyond());
                 Self::Smooth(parts.map(surface).collect())
             }
             Interpolation::Vertex => {
-                let surface =
-                    |first| Self::surface(as_positions(cage, primvar, first), options, caps);
+                let mesh = |first| as_positions(cage, primvar, first);
+                let surface = |first| Self::surface(mesh(first), options, caps, BTreeMap::new());
                 Self::Smooth(parts.map(surface).collect())
             }
         }
@@ -108,8 +112,14 @@ impl Channel {
     /// The surface over a channel's mesh. There always is one: its smooth extraordinary points are
     /// among those of the positions, for which the scheme has rules, and the others have those of
     /// Catmull-Clark.
-    fn surface(mesh: Mesh, options: SurfaceOptions, caps: Option<CapOptions>) -> Option<Surface> {
-        let surface = Surface::build(Arc::new(Cage::new(mesh).ok()?), options).ok();
+    fn surface(
+        mesh: Mesh,
+        options: SurfaceOptions,
+        caps: Option<CapOptions>,
+        beyond: BTreeMap<VertexId, Beyond>,
+    ) -> Option<Surface> {
+        let cage = Arc::new(Cage::new(mesh).ok()?);
+        let surface = Surface::build_channel(cage, options, beyond).ok();
         debug_assert!(surface.is_some(), "a channel has no points that the positions have not");
         let mut surface = surface?;
         let closed = surface.set_caps(caps);

@@ -77,8 +77,9 @@ fn child_sharpness(t: &Tables, method: CreaseMethod, e: Edge, v: u32) -> f64 {
     if method == CreaseMethod::Uniform || !semi(s) || semi_sharp.len() < 2 {
         return lower(s);
     }
-    let average = (semi_sharp.iter().sum::<f64>() - s) / (semi_sharp.len() as f64 - 1.0);
-    lower(0.75 * s + 0.25 * average)
+    let (s, sum) = (s as f32, semi_sharp.iter().map(|&s| s as f32).sum::<f32>());
+    let average = (sum - s) / (semi_sharp.len() as f32 - 1.0);
+    lower(f64::from(0.75 * s + 0.25 * average))
 }
 
 fn average(points: &[Point]) -> Point {
@@ -190,8 +191,9 @@ fn vertex(t: &Tables, method: CreaseMethod, mesh: &Mesh, v: u32) -> Point {
     if t.corners[i] > 0.0 && corner_then == 0.0 {
         ending.push(t.corners[i]);
     }
-    let weight = (ending.iter().sum::<f64>() / ending.len() as f64).min(1.0);
-    mix(weight, old, by_rule(t, mesh, v, after, &then))
+    let sum: f32 = ending.iter().map(|&s| s as f32).sum();
+    let weight = (sum / ending.len() as f32).min(1.0);
+    mix(f64::from(weight), old, by_rule(t, mesh, v, after, &then))
 }
 
 fn by_rule(t: &Tables, mesh: &Mesh, v: u32, rule: Rule, edges: &[f64]) -> Point {

@@ -75,6 +75,15 @@ impl<'a> Draft<'a> {
         Self { mesh, faces, sources: all.clone(), merged: all, is_dropped }
     }
 
+    /// The faces of which corners that follow each other are at one vertex.
+    pub fn faces_with_repeats(&self) -> Vec<FaceId> {
+        let vertex = |face: &DraftFace, k: usize| face.corners[k].vertex;
+        let repeats = |face: &&DraftFace| {
+            face.corners.len() >= 3 && face.edges().any(|[a, b]| vertex(face, a) == vertex(face, b))
+        };
+        self.faces.iter().filter(repeats).map(|face| face.source).collect()
+    }
+
     /// Moves all corners to what their vertices were merged into; the faces that this deletes.
     pub fn apply_merged(&mut self) -> Vec<FaceId> {
         for corner in self.faces.iter_mut().flat_map(|face| &mut face.corners) {

@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use super::Change;
 use super::draft::Draft;
-use crate::mesh::VertexId;
+use crate::mesh::{FaceId, VertexId};
 use crate::point::{Point, norm, sub};
 
 /// Makes every vertex that is not further than `distance` from a lower-numbered one that stays
-/// the lowest such.
+/// the lowest such, and corners one that follow each other in a face at one vertex.
 ///
 /// No vertex moves further than `distance`, and those that stay are further apart. A grid of
 /// that width finds them.
@@ -33,13 +33,15 @@ pub(super) fn merge(draft: &mut Draft, distance: f64) -> Vec<Change> {
             None => kept.entry(cell).or_default().push(v),
         }
     }
-    if pairs.is_empty() {
+    let joined: Vec<FaceId> = draft.faces_with_repeats();
+    if pairs.is_empty() && joined.is_empty() {
         return Vec::new();
     }
     let faces = draft.apply_merged();
-    let merged = Change::Merged { pairs, distance: largest };
+    let merged = (!pairs.is_empty()).then_some(Change::Merged { pairs, distance: largest });
+    let joined = (!joined.is_empty()).then_some(Change::Joined { faces: joined });
     let collapsed = (!faces.is_empty()).then_some(Change::Collapsed { faces });
-    [Some(merged), collapsed].into_iter().flatten().collect()
+    [merged, joined, collapsed].into_iter().flatten().collect()
 }
 
 /// The cell of the grid; for distance 0 the bits, of -0 as of 0.
