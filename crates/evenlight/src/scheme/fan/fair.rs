@@ -1,8 +1,9 @@
 //! Fair rings beside an infinitely sharp crease or the boundary. Ours, in no paper.
 //!
 //! The crease is what it always is, the cubic spline of its own vertices, so that both sides meet;
-//! inside the fan the rules are those of least energy, as in fairness-optimal subdivision (chapter 8): refinement is d' = A d + B u with the six nodes of every sector that knot
-//! insertion does not give, and two on either half of the crease, as the control u.
+//! inside the fan the rules are those of least energy, as in fairness-optimal subdivision (chapter 8):
+//! refinement is d' = A d + B u with the nodes that knot insertion does not give as the control u.
+//! Those on the crease are among them, since its curve has nodes of its own (module `net`).
 //!
 //! 1. **Characteristic map.** The crease runs along x, its nodes shrinking by 1/2, so the map shrinks
 //!    by 1/2 in y too. Of all nets that may do so, it is the nearest to the map that scales angles
