@@ -226,7 +226,7 @@ impl TriangleMesh {
         self.gauss.reserve_exact(self.origins.len());
         self.mean.reserve_exact(self.origins.len());
         for slice in self.origins.chunks(SLICE) {
-            for points in samples(surface, slice) {
+            for points in samples(surface, self.rate, slice) {
                 let missing = num_vertices - self.positions.len();
                 self.positions.extend(points.iter().map(|p| p.position).take(missing));
                 self.normals.extend(points.iter().map(|p| p.normal));
@@ -275,8 +275,9 @@ impl TriangleMesh {
             let (quad, first) = (quad_of(surface, grid), self.triangles.len());
             let sides = sides.of_face(grid.face);
             self.quads.push(QuadTriangles { quad, segments: grid.segments as u32, first });
+            let numbers: Vec<u32> = grid.nodes().map(|(i, j)| nodes.node(grid, i, j)).collect();
             for (i, j) in grid.cells() {
-                let corners = cell_corners(i, j).map(|(i, j)| nodes.node(grid, i, j));
+                let corners = cell_corners(i, j).map(|(i, j)| numbers[i + j * (grid.segments + 1)]);
                 let points = corners.map(|v| self.positions[v as usize]);
                 let pinned = cell_corners(i, j).map(|(i, j)| nodes.has_two_faces(grid, i, j));
                 let diagonal = Diagonal::from_pinned(pinned)
