@@ -242,8 +242,8 @@ impl Cap {
     /// the unit square; derivatives are by the sector's own parameters, as those of the rings.
     ///
     /// `rings` must be those that the cap was made for. At the centre the curvature is that of the
-    /// common quadratic; around fans each sector has its own, and without a tangent plane there are
-    /// neither normal nor curvature (NaN).
+    /// common quadratic. Around fans and other plain caps it has the limit normal, if there is one, and
+    /// no curvature (NaN), as sectors have different ones.
     ///
     /// # Panics
     ///
@@ -257,11 +257,10 @@ impl Cap {
         let m = self.space.pieces;
         let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
         let which = part(a) * m + part(b);
-        // The lines of a single face at a crease leave in opposite directions and span no plane.
-        let normal = rings.normal();
-        if a.max(b) == 0.0 && (normal[0].is_nan() || rings.valence() == 1) {
+        if a.max(b) == 0.0 && plain::is_plain(rings.rules()) {
+            // Derivatives may be parallel, and curvature is not that of the other sectors.
             let jet: Jet = self.eval_in_patch(rings, s, which, [a, b]);
-            let none = f64::NAN;
+            let (normal, none) = (rings.normal(), f64::NAN);
             return A::from_parts(jet, |_| Shape { normal, gauss: none, mean: none });
         }
         self.eval_in_patch(rings, s, which, [a, b])
