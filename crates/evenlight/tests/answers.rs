@@ -9,6 +9,7 @@ use common::Random;
 use evenlight::cap::CapOptions;
 use evenlight::patch::{Answer, FirstJet, Jet};
 use evenlight::point::{norm, sub};
+use evenlight::tessellate::tessellate;
 use evenlight::{Point, QuadId, SchemeKind, Surface, SurfacePoint};
 
 const CAGES: [&str; 4] = [
@@ -158,6 +159,27 @@ fn grids_are_each_place_alone() {
                 assert_eq!(bits(&found.jet.rows()), bits(&alone.jet.rows()), "{quad:?} {u} {v}");
                 let rest = |p: &SurfacePoint| bits(&[p.normal, [p.gauss, p.mean, 0.0]]);
                 assert_eq!(rest(found), rest(&alone), "{quad:?} {u} {v}");
+            }
+        }
+    }
+}
+
+#[test]
+fn vertices_of_triangles_are_each_place_alone() {
+    for surface in surfaces() {
+        for rate in [1, 3, 4, 10] {
+            let mesh = tessellate(&surface, rate).unwrap();
+            for (side, origin) in mesh.origins.iter().enumerate() {
+                let [u, v] = origin.uv;
+                let alone = surface.eval(origin.quad, u, v).unwrap();
+                if side < mesh.positions.len() {
+                    assert_eq!(bits(&[mesh.positions[side]]), bits(&[alone.jet.p]));
+                }
+                // Where curvature does not exist a mesh has that of the cells around.
+                if !alone.gauss.is_nan() {
+                    let rows = [mesh.normals[side], [mesh.gauss[side], mesh.mean[side], 0.0]];
+                    assert_eq!(bits(&rows), bits(&[alone.normal, [alone.gauss, alone.mean, 0.0]]));
+                }
             }
         }
     }

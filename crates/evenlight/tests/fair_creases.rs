@@ -5,10 +5,12 @@
 mod common;
 
 use common::Random;
+use evenlight::analyse::caps::cap_report;
 use evenlight::analyse::continuity::continuity;
-use evenlight::cap::{CapError, CapOptions};
+use evenlight::cap::{Cap, CapKind, CapOptions};
 use evenlight::mesh::{Crease, VertexRule};
 use evenlight::point::{norm, sub};
+use evenlight::rings::Rings;
 use evenlight::surface::{CreaseRings, PatchPlace, PointRule, Reason};
 use evenlight::{Cage, Mesh, Point, SchemeKind, Surface, SurfaceOptions, VertexId};
 
@@ -308,10 +310,81 @@ fn every_scheme_has_them() {
     assert!(SchemeKind::ALL.into_iter().all(|scheme| rings(scheme) == first));
 }
 
-/// There are no caps behind them: it is said, and the surface stays without.
+/// Caps close the hole behind any number of rings: with second derivatives to the last ring, tangent
+/// planes inside, and the crease as it was.
 #[test]
-fn caps_are_refused() {
-    let mut surface = build(&creased(4, 3, 9), CreaseRings::Fair);
-    assert_eq!(surface.set_caps(Some(CapOptions::default())), Err(CapError::FairCrease));
-    assert_eq!(surface.cap_options(), None);
+fn caps_close_them() {
+    for (f, g) in SIDES {
+        let mesh = creased(f, g, 55);
+        for (rings, kind) in [(0, CapKind::Auto), (3, CapKind::Auto), (2, CapKind::Bi3)] {
+            let mut surface = build(&mesh, CreaseRings::Fair);
+            surface.set_caps(Some(CapOptions { rings, kind })).unwrap();
+            let reports = cap_report(&surface);
+            for point in fair_points(&surface) {
+                let name = format!("{f} {g}, {rings} rings, {}", kind.name());
+                let report = reports.iter().find(|report| report.point == point).unwrap();
+                for defect in [report.lines, report.inside, report.ring] {
+                    assert!(defect.position < 1e-14, "{name}: {defect:?}");
+                }
+                let planes = [report.inside.tangent_plane, report.ring.tangent_plane];
+                assert!(planes.into_iter().all(|angle| angle < 1e-9), "{name}: {planes:?}");
+                let across = if kind == CapKind::Bi3 { 0.3 } else { 1e-9 };
+                assert!(report.lines.tangent_plane < across, "{name}: {:?}", report.lines);
+                goes_on(&name, surface.rings(point), surface.cap(point).unwrap());
+            }
+        }
+    }
+}
+
+fn goes_on(name: &str, rings: &Rings, cap: &Cap) {
+    assert_eq!(cap.patches_per_sector(), 4);
+    let hole = 0.5_f64.powi(cap.rings() as i32);
+    let near = |a: [f64; 3], b: [f64; 3], size: f64| {
+        assert!(norm(sub(a, b)) < 1e-12 * size, "{name}: {a:?} {b:?}");
+    };
+    for (s, k) in (0..rings.valence()).flat_map(|s| (0..=16).map(move |k| (s, k))) {
+        let t = f64::from(k) / 16.0;
+        for at in [[1.0, t], [t, 1.0]] {
+            let (own, next) =
+                (cap.eval(rings, s, at).jet, rings.eval(s, hole * at[0], hole * at[1]).jet);
+            let size = norm(next.du) + norm(next.dv);
+            near(own.p, next.p, 1.0);
+            near(own.du, next.du, size);
+            near(own.dv, next.dv, size);
+            for (a, b) in [(own.duu, next.duu), (own.duv, next.duv), (own.dvv, next.dvv)] {
+                near(a, b, 16.0 * size / hole);
+            }
+        }
+        for (s, at) in [(0, [t, 0.0]), (rings.valence() - 1, [0.0, t])] {
+            let next = if k == 0 {
+                rings.center()
+            } else {
+                rings.eval(s, hole * at[0], hole * at[1]).jet.p
+            };
+            near(cap.eval(rings, s, at).jet.p, next, 1.0);
+        }
+    }
+    let center = cap.eval(rings, 0, [0.0, 0.0]);
+    near(center.jet.p, rings.center(), 1.0);
+    near(center.normal, rings.normal(), 1e3);
+}
+
+/// Caps of flat cages are flat and do not fold.
+#[test]
+fn flat_caps_do_not_fold() {
+    for (f, g) in SIDES {
+        let mut mesh = creased(f, g, 44);
+        mesh.positions.iter_mut().for_each(|p| p[2] = 0.0);
+        let mut surface = build(&mesh, CreaseRings::Fair);
+        surface.set_caps(Some(CapOptions { rings: 2, kind: CapKind::Auto })).unwrap();
+        for point in fair_points(&surface) {
+            let (rings, cap) = (surface.rings(point), surface.cap(point).unwrap());
+            for (s, k) in (0..rings.valence()).flat_map(|s| (1..81).map(move |k| (s, k))) {
+                let at = [f64::from(k % 9) / 8.0, f64::from(k / 9) / 8.0];
+                let found = cap.eval(rings, s, at);
+                assert!(found.jet.p[2].abs() < 1e-15);
+                assert!(found.normal[2] > 0.999_999, "{f} {g}: fold in sector {s} at {at:?}");
+            }
+        }
+    }
 }

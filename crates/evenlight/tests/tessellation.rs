@@ -269,6 +269,27 @@ fn vertices_of_valence_2_have_a_normal_too() {
     }
 }
 
+/// A plane sheet one of whose faces has a vertex in the middle of a straight edge, turned in space:
+/// no digit of the derivatives there tells a normal.
+#[test]
+fn straight_corners_have_the_normal_of_what_is_around() {
+    for turn in 0..12 {
+        let (c, s) = f64::from(turn).sin_cos();
+        let turned = |x: f64, y: f64| [c * x, 0.6 * s * x - 0.8 * y, 0.8 * s * x + 0.6 * y];
+        let mut positions: Vec<Point> =
+            (0..16).map(|k| turned(f64::from(k % 4), f64::from(k / 4))).collect();
+        positions.push(turned(1.3, 0.0));
+        let mut faces: Vec<Vec<u32>> =
+            (0..9).map(|k| k % 3 + 4 * (k / 3)).map(|a| vec![a, a + 1, a + 5, a + 4]).collect();
+        faces[1] = vec![1, 16, 2, 6, 5];
+        let surface = surface(Mesh::new(positions, faces), SchemeKind::Qas4);
+        let normal = unit(cross(turned(1.0, 0.0), turned(0.0, 1.0)));
+        let mesh = tessellate(&surface, 4).unwrap();
+        assert!(mesh.normals.iter().all(|&n| norm(sub(n, normal)) < 1e-9), "turn {turn}");
+        assert!(mesh.gauss.iter().chain(&mesh.mean).all(|k| k.abs() < 1e-6), "turn {turn}");
+    }
+}
+
 /// Two faces around a vertex have two edges in common, whose middles no diagonal joins.
 #[test]
 fn no_edge_is_one_of_four_triangles_at_valence_2() {

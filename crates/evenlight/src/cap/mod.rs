@@ -23,9 +23,11 @@
 //! All this is for points that are smooth all around. At boundaries, creases, corners and darts, and at
 //! valences 2, 4 and above [`MAX_VALENCE`], there is one bi-4 patch per sector (bi-3, if that is asked
 //! for), with first derivatives to the last ring, exact creases, and common tangent planes on the
-//! lines if the point has a tangent plane (module `plain`).
+//! lines if the point has a tangent plane (module `plain`); behind fair rings beside a crease there are
+//! 2 x 2 (module `fair`).
 
 mod border;
+mod fair;
 mod guide;
 mod plain;
 mod plane;
@@ -39,6 +41,7 @@ use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::rings::{Rings, ValenceRules};
 use crate::scheme::{Rules, SchemeKind};
+use fair::FairCap;
 pub(crate) use plain::Lines;
 use plain::PlainCap;
 use round::RoundCap;
@@ -108,9 +111,6 @@ pub enum CapError {
         /// The patches along each side of a square of its rings.
         split: usize,
     },
-    /// No caps for fair rings beside creases.
-    #[error("fair rings beside creases and boundaries have no caps; Catmull-Clark's there have")]
-    FairCrease,
 }
 
 /// The highest valence with caps of the kind asked for: beyond it sectors are slivers, the rules would
@@ -198,6 +198,10 @@ impl Cap {
         let (space, patches) = match rules {
             ValenceCap::Round(cap) => (cap.space(), cap.patches(rings, count)),
             ValenceCap::Plain(cap) => (cap.space(), cap.patches(rings, count)),
+            ValenceCap::Fair(cap) => {
+                let limit = rings.rules().fan_limit().expect("these are the rules of a fan");
+                (cap.space(), cap.patches(rings, limit, count))
+            }
         };
         Self { rings: count, space, patches }
     }
@@ -238,8 +242,8 @@ impl Cap {
     /// the unit square; derivatives are by the sector's own parameters, as those of the rings.
     ///
     /// `rings` must be those that the cap was made for. At the centre the curvature is that of the
-    /// common quadratic; around fans each sector has its own, and without a tangent plane there are
-    /// neither normal nor curvature (NaN).
+    /// common quadratic. Around fans and other plain caps it has the limit normal, if there is one, and
+    /// no curvature (NaN), as sectors have different ones.
     ///
     /// # Panics
     ///
@@ -253,9 +257,10 @@ impl Cap {
         let m = self.space.pieces;
         let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
         let which = part(a) * m + part(b);
-        if a.max(b) == 0.0 && rings.normal()[0].is_nan() {
+        if a.max(b) == 0.0 && plain::is_plain(rings.rules()) {
+            // Derivatives may be parallel, and curvature is not that of the other sectors.
             let jet: Jet = self.eval_in_patch(rings, s, which, [a, b]);
-            let (normal, none) = ([f64::NAN; 3], f64::NAN);
+            let (normal, none) = (rings.normal(), f64::NAN);
             return A::from_parts(jet, |_| Shape { normal, gauss: none, mean: none });
         }
         self.eval_in_patch(rings, s, which, [a, b])
@@ -287,12 +292,13 @@ impl Cap {
 pub(crate) enum ValenceCap {
     Round(Box<RoundCap>),
     Plain(Box<PlainCap>),
+    Fair(Box<FairCap>),
 }
 
 impl ValenceCap {
     pub(crate) fn new(rules: &ValenceRules, kind: CapKind) -> Result<Self, CapError> {
-        if rules.is_fair_fan() {
-            return Err(CapError::FairCrease);
+        if let Some(limit) = rules.fan_limit().filter(|_| rules.is_fair_fan()) {
+            return Ok(Self::Fair(Box::new(FairCap::new(rules, limit, kind))));
         }
         if plain::is_plain(rules) {
             return Ok(Self::Plain(Box::new(PlainCap::new(rules, kind))));

@@ -82,7 +82,7 @@ struct Tangents {
 }
 
 /// The bi-3 patch of a sector, the coefficients along line s+1 fastest.
-type Bicubic = [Vector; 16];
+pub(super) type Bicubic = [Vector; 16];
 
 impl PlainCap {
     /// Bi-3 if that is asked for, else bi-4.
@@ -100,6 +100,14 @@ impl PlainCap {
         Self { degree, lines, border, tangents }
     }
 
+    /// Inside fair rings beside a crease, which find the tangents themselves.
+    pub(super) fn inside(rules: &ValenceRules, kind: CapKind) -> Self {
+        let lines = Lines::of(rules);
+        let border = Border::new(3, &domains(rules.rules()), Space::polynomials(3));
+        let tangents = Some(Tangents { theta: lines.angle(), directions: Default::default() });
+        Self { degree: if kind == CapKind::Bi3 { 3 } else { 4 }, lines, border, tangents }
+    }
+
     pub(super) fn space(&self) -> Space {
         Space::polynomials(self.degree)
     }
@@ -113,11 +121,20 @@ impl PlainCap {
             .map(|patches| self.border.data(patches))
             .collect();
         let tangents = self.tangents_of_lines(rings, count, &outside);
+        self.patches_within(&outside, &tangents)
+    }
+
+    /// The patches with these data on the outer edges and these tangents of the lines.
+    pub(super) fn patches_within(
+        &self,
+        outside: &[Vec<Vector>],
+        tangents: &[Vector],
+    ) -> Vec<Patch> {
         let cubics: Vec<Bicubic> = (0..self.lines.sectors)
             .map(|s| bicubic(&outside[s], [tangents[s], tangents[self.lines.next(s)]]))
             .collect();
         let mut nets: Vec<Vec<Vector>> = cubics.iter().map(|net| self.raised(net)).collect();
-        self.join(&mut nets, &cubics, &tangents);
+        self.join(&mut nets, &cubics, tangents);
         nets.into_iter().map(|net| Patch::new([self.degree; 2], net)).collect()
     }
 
@@ -145,7 +162,7 @@ impl PlainCap {
     }
 
     /// The coefficients of a sector in the cap's degree.
-    fn raised(&self, cubic: &Bicubic) -> Vec<Vector> {
+    pub(super) fn raised(&self, cubic: &Bicubic) -> Vec<Vector> {
         let (raise, order) = (raising(3, self.degree), self.degree + 1);
         let coef = |k: usize| {
             let mut sum = [0.0; 3];
@@ -233,12 +250,12 @@ impl Lines {
         }
     }
 
-    fn count(self) -> usize {
+    pub(super) fn count(self) -> usize {
         self.sectors + usize::from(!self.is_closed)
     }
 
     /// Whether a line bounds an open fan.
-    fn is_crease(self, line: usize) -> bool {
+    pub(super) fn is_crease(self, line: usize) -> bool {
         !self.is_closed && (line == 0 || line == self.sectors)
     }
 
@@ -263,13 +280,13 @@ impl Lines {
     }
 
     /// The angle between neighbouring lines where there is a tangent plane.
-    fn angle(self) -> f64 {
+    pub(super) fn angle(self) -> f64 {
         (if self.is_closed { TAU } else { PI }) / self.sectors as f64
     }
 
     /// How much of cos(s theta) and of sin(s theta) is in values on the smooth lines; values that
     /// are mirrored or change sign in the middle line of all have one of them only.
-    fn waves(self, values: &[f64]) -> [f64; 2] {
+    pub(super) fn waves(self, values: &[f64]) -> [f64; 2] {
         [cosine, sine].map(|wave| {
             let at = |line: usize| wave(line as f64 * self.angle());
             let size: f64 = self.smooth().map(|line| at(line) * at(line)).sum();
@@ -307,10 +324,10 @@ impl Lines {
 }
 
 /// The surface at the outer end of a line of the hole: position and derivatives along the line.
-struct LineEnd([Vector; 3]);
+pub(super) struct LineEnd([Vector; 3]);
 
 impl LineEnd {
-    fn of(outside: &[Vec<Vector>], lines: Lines, line: usize) -> Self {
+    pub(super) fn of(outside: &[Vec<Vector>], lines: Lines, line: usize) -> Self {
         // The last line of an open fan is the b-axis of the last sector.
         let (sector, edge) = if line == lines.sectors { (line - 1, 1) } else { (line, 0) };
         Self([0, 1, 2].map(|layer| outside[sector][at(edge, layer, 0)]))
@@ -318,7 +335,7 @@ impl LineEnd {
 
     /// The derivative at the centre, which is the origin: of the cubic that goes on with second
     /// derivatives, or of the parabola that does with first ones.
-    fn tangent(&self, is_cubic: bool) -> Vector {
+    pub(super) fn tangent(&self, is_cubic: bool) -> Vector {
         let weights = if is_cubic { [3.0, -2.0, 0.5] } else { [2.0, -1.0, 0.0] };
         let mut sum = [0.0; 3];
         weights.into_iter().zip(self.0).for_each(|(w, p)| add_scaled(&mut sum, w, p));

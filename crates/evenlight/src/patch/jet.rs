@@ -57,7 +57,7 @@ impl Jet {
 
     /// The unit normal du x dv; NaN where the derivatives are parallel or zero.
     pub fn normal(&self) -> Vector {
-        direction(cross(self.du, self.dv)).0
+        normal_direction(self.du, self.dv).0
     }
 
     /// Gauss and mean curvature (K, H); NaN where the derivatives are parallel or zero.
@@ -108,7 +108,7 @@ impl FirstJet {
     /// assert_eq!(jet.normal(), [0.0, 0.0, 1.0]);
     /// ```
     pub fn normal(&self) -> Vector {
-        direction(cross(self.du, self.dv)).0
+        normal_direction(self.du, self.dv).0
     }
 }
 
@@ -127,7 +127,7 @@ impl Shape {
     /// From r_u, r_v and the determinants det(r_u, r_v, r_uu), with r_uv and r_vv.
     #[inline]
     pub(crate) fn new(ru: Vector, rv: Vector, determinants: [f64; 3]) -> Self {
-        let (normal, inverse) = direction(cross(ru, rv));
+        let (normal, inverse) = normal_direction(ru, rv);
         let (e, f, g) = (dot(ru, ru), dot(ru, rv), dot(rv, rv));
         let [l, m, n] = determinants.map(|d| d * inverse);
         let inverse_sq = inverse * inverse;
@@ -137,15 +137,24 @@ impl Shape {
     }
 }
 
-/// `a` at length one, and one divided by its length.
+/// Sines of angles between derivatives that are rounding: the angle is 0 or pi, as where two edges of
+/// a corner are in one line.
+const PARALLEL: f64 = 1e-12;
+
+/// r_u x r_v at length one, and one divided by its length; NaN if they are parallel or zero.
 #[inline]
-fn direction(a: Vector) -> (Vector, f64) {
+fn normal_direction(ru: Vector, rv: Vector) -> (Vector, f64) {
     /// Squares of lengths far from the ends of the range of `f64`, where they are exact to
     /// rounding.
     const SAFE: std::ops::Range<f64> = 1e-250..1e250;
-    let square = dot(a, a);
-    let inverse = 1.0 / square.sqrt();
-    (if SAFE.contains(&square) { scale(inverse, a) } else { unit(a) }, inverse)
+    let area = cross(ru, rv);
+    let square = dot(area, area);
+    if !SAFE.contains(&square) {
+        return (unit(area), 1.0 / square.sqrt());
+    }
+    let is_parallel = square <= PARALLEL * dot(ru, ru) * (PARALLEL * dot(rv, rv));
+    let inverse = if is_parallel { f64::NAN } else { 1.0 / square.sqrt() };
+    (scale(inverse, area), inverse)
 }
 
 /// The sums of values, first and second derivatives of the first `count` basis functions times

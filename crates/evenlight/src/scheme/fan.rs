@@ -46,6 +46,9 @@ pub(crate) struct FanLimit {
     /// The first net of the rules by that of the fan, c being the last node; `None` if it is that
     /// without c.
     first_net: Option<Vec<Row>>,
+    /// Of rules with 2 x 2 patches per square the BB coefficients, by the net, of the patches of the hole
+    /// that do not touch the centre: [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2], in halves of it.
+    cells: Vec<[Vec<Row>; 3]>,
 }
 
 /// How the tangent plane at the centre is found.
@@ -86,7 +89,7 @@ pub(crate) fn rules(shape: Fan) -> (Rules, FanLimit) {
         guide: None,
     };
     let point = net.limit.into_iter().collect();
-    (rules, FanLimit { shape, lambda, point, tangents, first_net: None })
+    (rules, FanLimit { shape, lambda, point, tangents, first_net: None, cells: Vec::new() })
 }
 
 impl FanLimit {
@@ -134,6 +137,12 @@ impl FanLimit {
             Some(rows) => rows.iter().map(|row| apply(row, &relative)).collect(),
             None => relative[..relative.len() - 1].to_vec(),
         }
+    }
+
+    /// The patches of the hole that do not touch the centre, sector by sector, if the rules have such.
+    pub(crate) fn cells(&self, net: &[Vector]) -> Vec<[Vec<Vector>; 3]> {
+        let patch = |rows: &Vec<Row>| rows.iter().map(|row| apply(row, net)).collect();
+        self.cells.iter().map(|cells| cells.each_ref().map(patch)).collect()
     }
 
     /// The unit normal at the limit point, NaN if there is no tangent plane; `None` if the rules

@@ -1,8 +1,8 @@
 //! Evaluation on a grid of parameters of one quad.
 //!
 //! A piece is asked for all the places that it has at once: what those on one line have in common,
-//! basis functions and the sums over one index of the control points, is computed once. That is
-//! three times as fast as place by place, with the same bits.
+//! basis functions and the sums over one index of the control points, is computed once.
+//! The bits are the same as place by place.
 
 use super::place::{from_sector, to_sector};
 use super::{QuadId, Surface};

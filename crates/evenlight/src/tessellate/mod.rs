@@ -46,8 +46,8 @@ pub use split::SplitVertices;
 
 use std::collections::BTreeMap;
 
-use crate::patch::SurfacePoint;
-use crate::point::{Point, Vector, add, dot, sub, unit};
+use crate::patch::{FirstJet, SurfacePoint};
+use crate::point::{Point, Vector, add, cross, dot, norm, sub, unit};
 use crate::surface::{QuadId, Surface};
 use nodes::{Grid, Nodes};
 use samples::samples;
@@ -199,6 +199,23 @@ fn eval(surface: &Surface, quad: QuadId, [u, v]: [f64; 2]) -> SurfacePoint {
     surface.eval(quad, u, v).expect("quads of omitted faces have no grid")
 }
 
+/// Whether the surface has two infinitely sharp edges or boundaries in one line at a corner of a quad:
+/// the edges of a plane face, say, one of whose vertices lies between two others. Its normal is noise
+/// there, whatever the digits of the cage.
+fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> bool {
+    /// Sines of angles that files with seven digits leave of a straight one, and more.
+    const STRAIGHT: f64 = 1e-4;
+    let Some(corner) = grid.corner_of_face(i, j) else { return false };
+    let topology = surface.cage().topology();
+    let h = topology.half_edge(grid.face, corner);
+    if ![h, topology.previous(h)].into_iter().all(|h| surface.is_infinitely_sharp(h)) {
+        return false;
+    }
+    let [u, v] = grid.parameters(i as f64, j as f64);
+    let jet = surface.eval_first(quad_of(surface, grid), u, v);
+    jet.is_some_and(|FirstJet { du, dv, .. }| norm(cross(du, dv)) <= STRAIGHT * norm(du) * norm(dv))
+}
+
 impl TriangleMesh {
     /// Computes all sides, and vertices on their first, a slice at a time.
     fn evaluate(&mut self, surface: &Surface) {
@@ -209,7 +226,7 @@ impl TriangleMesh {
         self.gauss.reserve_exact(self.origins.len());
         self.mean.reserve_exact(self.origins.len());
         for slice in self.origins.chunks(SLICE) {
-            for points in samples(surface, slice) {
+            for points in samples(surface, self.rate, slice) {
                 let missing = num_vertices - self.positions.len();
                 self.positions.extend(points.iter().map(|p| p.position).take(missing));
                 self.normals.extend(points.iter().map(|p| p.normal));
@@ -219,15 +236,19 @@ impl TriangleMesh {
         }
     }
 
-    /// Gives extraordinary points, which are corners of quads, the curvature and the normal that
-    /// they lack: the mean over the middles of the cells around, which do not depend on how cells
-    /// are cut.
+    /// Gives extraordinary points and other corners of quads the curvature and the normal that they
+    /// lack: the mean over the middles of the cells around, which do not depend on how cells are cut.
     fn fill_what_is_missing(&mut self, surface: &Surface, nodes: &Nodes, sides: &Sides) {
         let mut around: BTreeMap<u32, Vec<SurfacePoint>> = BTreeMap::new();
         for grid in nodes.grids() {
-            let (m, sides) = (grid.segments, sides.of_face(grid.face));
-            for (i, j) in [(0, 0), (m, 0), (m, m), (0, m)] {
+            let sides = sides.of_face(grid.face);
+            for (i, j) in grid.corners() {
                 let side = sides.side(nodes.node(grid, i, j));
+                let is_known = !self.gauss[side as usize].is_nan();
+                if is_known && has_straight_angle(surface, grid, (i, j)) {
+                    self.normals[side as usize] = [f64::NAN; 3];
+                    self.gauss[side as usize] = f64::NAN;
+                }
                 if self.gauss[side as usize].is_nan() {
                     let middle = |i: usize| if i == 0 { 0.5 } else { i as f64 - 0.5 };
                     let uv = grid.parameters(middle(i), middle(j));
@@ -254,8 +275,9 @@ impl TriangleMesh {
             let (quad, first) = (quad_of(surface, grid), self.triangles.len());
             let sides = sides.of_face(grid.face);
             self.quads.push(QuadTriangles { quad, segments: grid.segments as u32, first });
+            let numbers: Vec<u32> = grid.nodes().map(|(i, j)| nodes.node(grid, i, j)).collect();
             for (i, j) in grid.cells() {
-                let corners = cell_corners(i, j).map(|(i, j)| nodes.node(grid, i, j));
+                let corners = cell_corners(i, j).map(|(i, j)| numbers[i + j * (grid.segments + 1)]);
                 let points = corners.map(|v| self.positions[v as usize]);
                 let pinned = cell_corners(i, j).map(|(i, j)| nodes.has_two_faces(grid, i, j));
                 let diagonal = Diagonal::from_pinned(pinned)

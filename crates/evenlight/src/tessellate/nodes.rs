@@ -48,6 +48,21 @@ impl Grid {
         (0..self.segments).flat_map(move |j| (0..self.segments).map(move |i| (i, j)))
     }
 
+    /// The nodes at the corners.
+    pub fn corners(self) -> [(usize, usize); 4] {
+        let m = self.segments;
+        [(0, 0), (m, 0), (m, m), (0, m)]
+    }
+
+    /// The corner of the face at node (`i`, `j`).
+    pub fn corner_of_face(self, i: usize, j: usize) -> Option<usize> {
+        match self.corners().iter().position(|&at| at == (i, j)) {
+            Some(k) if self.num_corners == 4 => Some(k),
+            Some(0) => Some(self.corner),
+            _ => None,
+        }
+    }
+
     /// The parameters (u, v) of a node, or between nodes.
     pub fn parameters(self, i: f64, j: f64) -> [f64; 2] {
         [i / self.segments as f64, j / self.segments as f64]
@@ -156,13 +171,7 @@ impl<'a> Nodes<'a> {
     /// Whether node (`i`, `j`) of `grid` is a vertex around which there are just two faces, which
     /// then share two edges in a row.
     pub fn has_two_faces(&self, grid: Grid, i: usize, j: usize) -> bool {
-        let m = grid.segments;
-        let corners = [(0, 0), (m, 0), (m, m), (0, m)];
-        let corner = match corners.iter().position(|&at| at == (i, j)) {
-            Some(k) if grid.num_corners == 4 => k,
-            Some(0) => grid.corner,
-            _ => return false,
-        };
+        let Some(corner) = grid.corner_of_face(i, j) else { return false };
         let v = self.topology.origin(self.topology.half_edge(grid.face, corner));
         self.topology.num_sectors(v) == 2 && !self.topology.is_boundary(v)
     }

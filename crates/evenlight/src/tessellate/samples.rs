@@ -35,33 +35,55 @@ impl Parts for Sample {
     }
 }
 
-/// The samples at `origins`, in their order but in several pieces.
-pub(super) fn samples(surface: &Surface, origins: &[VertexOrigin]) -> Vec<Vec<Sample>> {
+/// The samples at `origins`, which are nodes of grids with `rate` segments along every edge of the
+/// cage, in their order but in several pieces.
+pub(super) fn samples(
+    surface: &Surface,
+    rate: usize,
+    origins: &[VertexOrigin],
+) -> Vec<Vec<Sample>> {
     /// So many origins for a thread at a time: a few dozen quads.
     const PIECE: usize = 4096;
     let pieces: Vec<&[VertexOrigin]> = origins.chunks(PIECE).collect();
     map_indexed(pieces.len(), |k| {
-        let runs = pieces[k].chunk_by(|a, b| a.quad == b.quad);
-        runs.flat_map(|run| samples_of_quad(surface, run)).collect()
+        let mut samples = Vec::with_capacity(pieces[k].len());
+        for run in pieces[k].chunk_by(|a, b| a.quad == b.quad) {
+            add_samples_of_quad(surface, rate, run, &mut samples);
+        }
+        samples
     })
 }
 
-/// The samples at places of one quad, by way of a grid if they fill one.
-fn samples_of_quad(surface: &Surface, run: &[VertexOrigin]) -> Vec<Sample> {
-    let [us, vs] = [0, 1].map(|k| {
-        let mut all: Vec<f64> = run.iter().map(|origin| origin.uv[k]).collect();
-        all.sort_by(f64::total_cmp);
-        all.dedup();
-        all
-    });
+/// The samples at nodes of one quad, by way of the rectangle of nodes around them if they fill it.
+fn add_samples_of_quad(
+    surface: &Surface,
+    rate: usize,
+    run: &[VertexOrigin],
+    samples: &mut Vec<Sample>,
+) {
     let quad = run[0].quad;
-    if us.len() * vs.len() > 2 * run.len() {
-        let alone = |origin: &VertexOrigin| surface.eval_as(quad, origin.uv[0], origin.uv[1]);
-        return run.iter().map(|origin| alone(origin).unwrap_or(Sample::NAN)).collect();
+    let corners = surface.cage().topology().faces().corners(surface.face_of(quad).0);
+    let segments = if corners.len() == 4 { rate } else { rate / 2 } as f64;
+    // The parameters are whole numbers divided by that of the segments.
+    let node = |origin: &VertexOrigin| origin.uv.map(|x| (segments * x + 0.5) as usize);
+    let (mut first, mut last) = ([usize::MAX; 2], [0; 2]);
+    for node in run.iter().map(node) {
+        for k in 0..2 {
+            first[k] = first[k].min(node[k]);
+            last[k] = last[k].max(node[k]);
+        }
     }
-    let mut grid = vec![Sample::NAN; us.len() * vs.len()];
-    surface.eval_grid(quad, &us, &vs, &mut grid);
-    let number = |all: &[f64], x: f64| all.partition_point(|&y| y < x);
-    let node = |[u, v]: [f64; 2]| number(&us, u) + number(&vs, v) * us.len();
-    run.iter().map(|origin| grid[node(origin.uv)]).collect()
+    let [columns, rows] = [0, 1].map(|k| last[k] - first[k] + 1);
+    if columns * rows > 2 * run.len() {
+        let alone = |origin: &VertexOrigin| surface.eval_as(quad, origin.uv[0], origin.uv[1]);
+        samples.extend(run.iter().map(|origin| alone(origin).unwrap_or(Sample::NAN)));
+        return;
+    }
+    let lines = |k: usize| -> Vec<f64> {
+        (first[k]..=last[k]).map(|node| node as f64 / segments).collect()
+    };
+    let mut grid = vec![Sample::NAN; columns * rows];
+    surface.eval_grid(quad, &lines(0), &lines(1), &mut grid);
+    let place = |[i, j]: [usize; 2]| (i - first[0]) + (j - first[1]) * columns;
+    samples.extend(run.iter().map(|origin| grid[place(node(origin))]));
 }

@@ -1,9 +1,9 @@
 //! Fair rings beside an infinitely sharp crease or the boundary. Ours, in no paper.
 //!
 //! The crease is what it always is, the cubic spline of its own vertices, so that both sides meet;
-//! inside the fan the rules are those of least energy, as in [`optimal`](crate::SchemeKind::Fair4d)
-//! subdivision (chapter 8): refinement is d' = A d + B u with the six nodes of every sector that knot
-//! insertion does not give, and two on either half of the crease, as the control u.
+//! inside the fan the rules are those of least energy, as in fairness-optimal subdivision (chapter 8):
+//! refinement is d' = A d + B u with the nodes that knot insertion does not give as the control u.
+//! Those on the crease are among them, since its curve has nodes of its own (module `net`).
 //!
 //! 1. **Characteristic map.** The crease runs along x, its nodes shrinking by 1/2, so the map shrinks
 //!    by 1/2 in y too. Of all nets that may do so, it is the nearest to the map that scales angles
@@ -33,9 +33,8 @@ use energy::{Polar, RingChart, RingForms};
 use net::{Net, SPLINE_NODES};
 use regulator::Regulator;
 
-/// The most faces between two sharp edges for which there are fair rules
-/// ([`CreaseRings::Fair`](crate::surface::CreaseRings)): with more, sectors are slivers and the rings
-/// no fairer than Catmull-Clark's.
+/// The most faces between two sharp edges for which there are fair rules (`CreaseRings::Fair`): with
+/// more, sectors are slivers and the rings no fairer than Catmull-Clark's.
 pub const MAX_FAIR_FACES: usize = 12;
 
 /// What the rings of a fair fan are made with.
@@ -95,6 +94,7 @@ impl FairFan {
             point: coarse.limit.clone().into_iter().collect(),
             tangents: Tangents::OfRules,
             first_net: Some(first_net(&coarse, net)),
+            cells: (0..shape.faces as isize).map(|s| net.cells(s)).collect(),
         };
         Self { rules, limit, subdominant }
     }

@@ -104,10 +104,16 @@ impl Net {
         self.places().map(image).chain(spline).collect()
     }
 
-    /// The node (a,b) of a net, a and b from -1 to 3, not both below 1.
+    /// The node (a,b) of a net, a and b from -1 to 3; for the centre stands that of the spline.
     fn old(self, s: isize, a: isize, b: isize) -> Weights {
+        if (a, b) == (0, 0) {
+            return self.center();
+        }
         let at = |s, a, b| self.old(s, a, b);
-        let spline = |end, a| [(self.on_spline(end, a), 1.0)].into();
+        let spline = |end, a| match a {
+            0 => self.center(),
+            a => [(self.on_spline(end, a), 1.0)].into(),
+        };
         self.beyond([s, a, b], &at, &spline).unwrap_or_else(|| [(self.number(s, a, b), 1.0)].into())
     }
 
@@ -165,14 +171,18 @@ impl Net {
         self.inserted_spline(end, a)
     }
 
+    /// P_0.
+    fn center(self) -> Weights {
+        [0, 1].map(|end| (self.on_spline(end, 1), -0.25)).into()
+    }
+
     fn inserted_spline(self, end: usize, a: isize) -> Weights {
         let mut row = Weights::new();
         for (x, w) in knot_insertion(a) {
             if x > 0 {
                 add(&mut row, w, &[(self.on_spline(end, x), 1.0)].into());
             } else {
-                let ends = [0, 1].map(|end| (self.on_spline(end, 1), -0.25));
-                add(&mut row, w, &ends.into());
+                add(&mut row, w, &self.center());
             }
         }
         row
@@ -195,19 +205,34 @@ impl Net {
     /// The patch of a ring at [`PATCHES`]`[which]` of sector `s`.
     pub(super) fn patch(self, s: isize, which: usize) -> PatchRule {
         let [a, b] = PATCHES[which];
-        let nodes: Vec<Weights> =
-            (0..16).map(|k| self.refined(s, a - 1 + k / 4, b - 1 + k % 4)).collect();
         let mut rule = PatchRule::default();
-        for k in 0..16 {
-            let mut row = Weights::new();
-            for (m, node) in nodes.iter().enumerate() {
-                let w = CUBIC_B_SPLINE_TO_BB[k / 4][m / 4] * CUBIC_B_SPLINE_TO_BB[k % 4][m % 4];
-                add(&mut row, w, node);
-            }
+        for row in to_bb(|i, j| self.refined(s, a - 1 + i, b - 1 + j)) {
             let (old, new): (Row, Row) = row.into_iter().partition(|&(k, _)| k < self.num_nodes());
             rule.old.push(old);
             rule.new.push(new.into_iter().map(|(k, w)| (k - self.num_nodes(), w)).collect());
         }
         rule
     }
+    /// The BB coefficients of the patches of the net itself between 1 and 2 in sector `s`, in the order
+    /// [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2]: those of a finite end of the rings.
+    pub(super) fn cells(self, s: isize) -> [Vec<Row>; 3] {
+        [[0, 1], [1, 0], [1, 1]].map(|[a, b]: [isize; 2]| {
+            let rows = to_bb(|i, j| self.old(s, a - 1 + i, b - 1 + j));
+            rows.into_iter().map(|row| row.into_iter().collect()).collect()
+        })
+    }
+}
+
+/// The BB coefficients of the bi-3 patch with these 4 x 4 nodes.
+fn to_bb(node: impl Fn(isize, isize) -> Weights) -> Vec<Weights> {
+    let nodes: Vec<Weights> = (0..16).map(|k| node(k / 4, k % 4)).collect();
+    let coef = |k: usize| {
+        let mut row = Weights::new();
+        for (m, node) in nodes.iter().enumerate() {
+            let w = CUBIC_B_SPLINE_TO_BB[k / 4][m / 4] * CUBIC_B_SPLINE_TO_BB[k % 4][m % 4];
+            add(&mut row, w, node);
+        }
+        row
+    };
+    (0..16).map(coef).collect()
 }

@@ -1,0 +1,112 @@
+//! Caps behind fair rings beside a crease: 2 x 2 patches per sector.
+//!
+//! ```text
+//!   line s+1
+//!   1 +-----+-----+      The net behind the last ring is a bi-3 spline between 1/2 and 1 (x), if the
+//!     |  x  |  x  |      node of the crease stands for the centre: there the surface is C2 like the rings.
+//!     +-----+-----+      What is left is a hole with one cubic along each outer edge, as behind
+//!     |  o  |  x  |      Catmull-Clark's rings, and o a plain cap.
+//!     +-----+-----+ 1
+//!      line s
+//! ```
+
+use super::CapKind;
+use super::plain::{LineEnd, Lines, PlainCap};
+use super::spline::Space;
+use crate::angle::{cosine, sine};
+use crate::patch::Patch;
+use crate::point::{Vector, add_scaled, scale, sub};
+use crate::rings::{Rings, ValenceRules};
+use crate::scheme::FanLimit;
+
+/// The rules of the caps behind the fair rings of one number of faces.
+#[derive(Clone, Debug)]
+pub(crate) struct FairCap {
+    lines: Lines,
+    inside: PlainCap,
+    /// The length of the tangents of lines across the crease, that of y being 1.
+    across: f64,
+}
+
+/// The patches of a sector that do not touch the centre, as in [`FanLimit::cells`].
+type Cells = [Vec<Vector>; 3];
+
+impl FairCap {
+    /// Bi-3 if that is asked for, else bi-4.
+    pub(super) fn new(rules: &ValenceRules, limit: &FanLimit, kind: CapKind) -> Self {
+        let lines = Lines::of(rules);
+        let cells = limit.cells(&rules.subdominant().characteristic_net());
+        let outside: Vec<Vec<Vector>> = cells.iter().map(outside).collect();
+        let end = |line: usize| LineEnd::of(&outside, lines, line).tangent(false)[1];
+        let [_, across] = lines.waves(&(0..lines.count()).map(end).collect::<Vec<_>>());
+        Self { lines, inside: PlainCap::inside(rules, kind), across }
+    }
+
+    pub(super) fn space(&self) -> Space {
+        Space { pieces: 2, ..self.inside.space() }
+    }
+
+    /// The patches of all sectors for the hole behind `count` rings, in the frame of the rings.
+    pub(super) fn patches(&self, rings: &Rings, limit: &FanLimit, count: usize) -> Vec<Patch> {
+        let net = rings.net(count);
+        let cells = limit.cells(&net);
+        let outside: Vec<Vec<Vector>> = cells.iter().map(outside).collect();
+        let tangents = self.tangents_of_lines(rings, &net, &outside);
+        let inner = self.inside.patches_within(&outside, &tangents);
+        let degree = self.inside.space().degree;
+        let raised = |coefs: &Vec<Vector>| {
+            let cubic = std::array::from_fn(|k| coefs[k]);
+            Patch::new([degree; 2], self.inside.raised(&cubic))
+        };
+        let sectors = inner.into_iter().zip(&cells);
+        sectors
+            .flat_map(|(inner, cells)| std::iter::once(inner).chain(cells.iter().map(raised)))
+            .collect()
+    }
+
+    /// Of creases that of their cubic, of other lines cos(s theta) of it and sin(s theta) across.
+    fn tangents_of_lines(
+        &self,
+        rings: &Rings,
+        net: &[Vector],
+        outside: &[Vec<Vector>],
+    ) -> Vec<Vector> {
+        let lines = self.lines;
+        let [_, y] = rings.rules().subdominant().tangential(net);
+        let crease = |line: usize| LineEnd::of(outside, lines, line).tangent(true);
+        let along = crease(0);
+        let tangent = |line: usize| {
+            if lines.is_crease(line) {
+                return crease(line);
+            }
+            let angle = line as f64 * lines.angle();
+            let mut sum = scale(cosine(angle), along);
+            add_scaled(&mut sum, sine(angle) * self.across, y);
+            sum
+        };
+        (0..lines.count()).map(tangent).collect()
+    }
+}
+
+/// Position and first and second derivative on the outer edges of the inner hole, as [`Border`] has
+/// them: a = 1/2, then b = 1/2.
+///
+/// [`Border`]: super::border::Border
+fn outside([above, right, _]: &Cells) -> Vec<Vector> {
+    let layers = |row: &dyn Fn(usize, usize) -> Vector| -> Vec<Vector> {
+        let edge = |layer: usize| {
+            (0..4).map(move |k| {
+                let (p, q, r) = (row(0, k), row(1, k), row(2, k));
+                match layer {
+                    0 => p,
+                    1 => scale(3.0, sub(q, p)),
+                    _ => scale(6.0, sub(sub(r, q), sub(q, p))),
+                }
+            })
+        };
+        (0..3).flat_map(edge).collect()
+    };
+    let mut data = layers(&|i, k| right[4 * i + k]);
+    data.extend(layers(&|i, k| above[4 * k + i]));
+    data
+}
