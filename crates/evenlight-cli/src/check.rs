@@ -8,8 +8,8 @@ use clap::Args;
 use evenlight::io::load::{LoadError, Loaded, Notice};
 use evenlight::mesh::BoundaryRule;
 use evenlight::mesh::isolation::{self, Extraordinary, Place};
-use evenlight::surface::PointRule;
-use evenlight::{Cage, SchemeKind, SurfaceOptions};
+use evenlight::surface::{PointRule, SurfaceError};
+use evenlight::{Cage, RuleSet, SchemeKind, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
@@ -58,7 +58,8 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
     let result = input::read_mesh(&args.cage)?.and_then(Loaded::check);
     let options = SurfaceOptions { scheme: args.scheme, ..SurfaceOptions::default() };
     let options = args.boundary.applied_to(options);
-    let report = Report::of(&result, options);
+    let points = result.as_ref().map_or_else(|_| Vec::new(), |(cage, _)| points(cage, options));
+    let report = Report::of(&result, points, options);
     if args.json {
         args.output.write_json(&report)?;
     }
@@ -67,10 +68,10 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
     }
     let refused = |error: &LoadError| Failure::Unusable(format!("{}: {error}", args.cage.source));
     result.as_ref().map_err(refused)?;
-    if args.json {
-        Ok(())
-    } else {
-        args.output.write(|out| report.write_text(&args.cage.source, out))
+    match &report.errors[..] {
+        [] if args.json => Ok(()),
+        [] => args.output.write(|out| report.write_text(&args.cage.source, out)),
+        [error, ..] => Err(Failure::Unusable(format!("{}: {error}", args.cage.source))),
     }
 }
 
@@ -147,10 +148,21 @@ struct RuleName {
 }
 
 impl Report {
-    /// What is known of a cage that was read, or why it was not.
-    pub fn of(result: &Result<(Cage, Vec<Notice>), LoadError>, options: SurfaceOptions) -> Self {
+    /// What is known of a cage that was read, and of its extraordinary points, or why it was not.
+    fn of(
+        result: &Result<(Cage, Vec<Notice>), LoadError>,
+        points: Vec<Extraordinary>,
+        options: SurfaceOptions,
+    ) -> Self {
         match result {
-            Ok((cage, notices)) => Self::of_cage(cage, notices, options),
+            Ok((cage, notices)) => match beyond_all_rules(&points) {
+                Some(error) => Self {
+                    errors: vec![error.to_string()],
+                    warnings: notices.iter().map(ToString::to_string).collect(),
+                    ..Self::default()
+                },
+                None => Self::of_cage(cage, notices, points, options),
+            },
             Err(error) => Self {
                 errors: error.faults(),
                 warnings: error.notices().iter().map(ToString::to_string).collect(),
@@ -159,8 +171,13 @@ impl Report {
         }
     }
 
-    fn of_cage(cage: &Cage, notices: &[Notice], options: SurfaceOptions) -> Self {
-        let boundary = options.boundary.unwrap_or(cage.tags().boundary);
+    fn of_cage(
+        cage: &Cage,
+        notices: &[Notice],
+        points: Vec<Extraordinary>,
+        options: SurfaceOptions,
+    ) -> Self {
+        let boundary = boundary_of(cage, options);
         let omitted = isolation::omitted_faces(cage, boundary).len();
         let mut ngons = cage.face_sizes();
         ngons.remove(&4);
@@ -177,7 +194,6 @@ impl Report {
             warnings: notices.iter().map(ToString::to_string).collect(),
             ..Self::default()
         };
-        let points = isolation::extraordinary_points(cage, boundary);
         let smooth = points.iter().filter(|p| p.is_covered && p.fan.is_smooth());
         report.warnings.extend(valence_warning(smooth.map(|p| (p.place, p.valence)), options));
         if omitted > 0 {
@@ -258,6 +274,24 @@ impl Report {
     }
 }
 
+fn boundary_of(cage: &Cage, options: SurfaceOptions) -> BoundaryRule {
+    options.boundary.unwrap_or(cage.tags().boundary)
+}
+
+fn points(cage: &Cage, options: SurfaceOptions) -> Vec<Extraordinary> {
+    isolation::extraordinary_points(cage, boundary_of(cage, options))
+}
+
+/// Why no surface can be built over a cage with such points: more faces meet at some of them than
+/// even Catmull-Clark has rules for.
+fn beyond_all_rules(points: &[Extraordinary]) -> Option<SurfaceError> {
+    let has_rules =
+        |faces: usize| faces < 2 || SchemeKind::CatmullClark.has_rules(RuleSet::default(), faces);
+    let beyond = points.iter().filter(|p| p.is_covered && !has_rules(p.fan.faces));
+    let points: Vec<_> = beyond.map(|p| (p.place, p.valence)).collect();
+    (!points.is_empty()).then_some(SurfaceError::NoRules { points })
+}
+
 fn rule_name(cage: &Cage, point: &Extraordinary, options: SurfaceOptions) -> RuleName {
     let rule = point.is_covered.then(|| PointRule::of(cage, point, options));
     RuleName {
@@ -296,6 +330,7 @@ fn boundary_name(rule: BoundaryRule) -> &'static str {
 fn left_out(omitted: usize) -> String {
     match omitted {
         0 => "nothing".to_owned(),
+        1 => format!("1 face ({WHY_OMITTED})"),
         _ => format!("{omitted} faces ({WHY_OMITTED})"),
     }
 }

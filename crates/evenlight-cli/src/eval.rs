@@ -212,10 +212,20 @@ fn is_header(line: &str) -> bool {
     names == ["face", "u", "v"] || names == ["face", "u", "v", "corner"]
 }
 
+/// Whether `name` is the name of a column rather than a value.
+fn is_word(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_alphabetic()) && name.parse::<f64>().is_err()
+}
+
 impl<'a> Row<'a> {
     fn parse(line: usize, text: &'a str) -> Result<Self, Fault> {
         let fault = |text: String| Fault { line, text };
         let columns: Vec<&str> = fields(text).collect();
+        if columns.len() > 1 && columns.iter().all(|name| is_word(name)) {
+            let message = "the columns must be face,u,v or face,u,v,corner, in this order: \
+                           correct the header and the rows";
+            return Err(fault(message.to_owned()));
+        }
         let (face, u, v, corner) = match columns[..] {
             [face, u, v] => (face, u, v, ""),
             [face, u, v, corner] => (face, u, v, corner),

@@ -12,7 +12,7 @@ use clap::Args;
 use evenlight::io::load::{Format, LoadError, Loaded};
 use evenlight::mesh::isolation::Place;
 use evenlight::surface::{PointRule, Reason, SurfaceError};
-use evenlight::{Cage, Surface, SurfaceOptions};
+use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
 use crate::options::SurfaceArgs;
@@ -169,6 +169,9 @@ pub fn valence_warning(
     options: SurfaceOptions,
 ) -> Option<String> {
     let SurfaceOptions { scheme, rules, .. } = options;
+    if scheme == SchemeKind::CatmullClark {
+        return None; // nothing can take its place: where it has no rules, there is no surface
+    }
     let name = |(place, valence): (Place, usize)| match place {
         Place::Vertex(v) => format!("vertex {} has valence {valence}", v.0),
         Place::FaceCentre(f) => format!("face {} has {valence} corners", f.0),
@@ -203,9 +206,16 @@ pub fn report_omitted(surface: &Surface, source: &Source) -> Result<(), Failure>
     let faces = surface.cage().num_faces();
     match surface.omitted_faces().len() {
         0 => Ok(()),
-        omitted if omitted == faces => Err(Failure::Unusable(format!(
-            "{source}: all {faces} faces are left out ({WHY_OMITTED}): no surface remains"
-        ))),
+        omitted if omitted == faces => {
+            let all = if faces == 1 {
+                "the only face is".to_owned()
+            } else {
+                format!("all {faces} faces are")
+            };
+            Err(Failure::Unusable(format!(
+                "{source}: {all} left out ({WHY_OMITTED}): no surface remains"
+            )))
+        }
         omitted => {
             warn(format_args!("{source}: {}", omitted_text(omitted, faces)));
             Ok(())
@@ -218,5 +228,6 @@ pub const WHY_OMITTED: &str = "holes, or at the boundary under the rule none";
 
 /// The sentence on faces without a surface.
 pub fn omitted_text(omitted: usize, faces: usize) -> String {
-    format!("{omitted} of {faces} faces are left out ({WHY_OMITTED})")
+    let are = if omitted == 1 { "is" } else { "are" };
+    format!("{omitted} of {faces} faces {are} left out ({WHY_OMITTED})")
 }

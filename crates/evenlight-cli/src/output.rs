@@ -130,12 +130,23 @@ fn temporary_beside(path: &Path) -> io::Result<NamedTempFile> {
     builder.prefix(".evenlight-").suffix(".tmp");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    // The error of `tempfile` would name the temporary file, which nobody asked for.
-    let file = builder.tempfile_in(folder).map_err(|e| io::Error::from(e.kind()))?;
+    let file = builder.tempfile_in(folder).map_err(|e| folder_error(folder, e.kind()))?;
     if let Ok(old) = fs::metadata(path) {
         file.as_file().set_permissions(old.permissions())?;
     }
     Ok(file)
+}
+
+/// Why nothing can be written in `folder`. The error of `tempfile` would name the temporary file,
+/// which nobody asked for.
+fn folder_error(folder: &Path, kind: ErrorKind) -> io::Error {
+    match kind {
+        ErrorKind::NotFound => {
+            let message = format!("the folder {} does not exist: create it", folder.display());
+            io::Error::new(kind, message)
+        }
+        _ => kind.into(),
+    }
 }
 
 fn format_needed<F: ValueEnum>() -> String {

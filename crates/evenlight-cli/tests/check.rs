@@ -150,15 +150,50 @@ fn valences_without_rules_are_a_warning() {
     assert_eq!(code(&output), 0);
 }
 
-/// A double pyramid over a polygon with 20 sides.
+/// What `mesh` refuses, `check` refuses in the same words, whatever the scheme and the point.
+#[test]
+fn valences_beyond_all_rules_are_refused_as_a_surface_is() {
+    let fan = {
+        let mut text = "v 0 0 1\n".to_owned();
+        for k in 0..2051 {
+            let angle = std::f64::consts::PI * f64::from(k) / 2050.0;
+            text += &format!("v {} {} 0\n", angle.cos(), angle.sin());
+        }
+        (0..1025).for_each(|k| text += &format!("f 1 {} {} {}\n", 2 * k + 2, 2 * k + 3, 2 * k + 4));
+        text
+    };
+    let limit = "error: stdin: there are rules for valences up to 1024, but vertex 0 ";
+    for (cage, is_refused) in
+        [(double_pyramid(1025), true), (double_pyramid(1024), false), (fan, true)]
+    {
+        for scheme in ["cc", "qas4"] {
+            let output = run_on(&cage, &["check", "-", "--json", "--scheme", scheme]);
+            let mesh = ["mesh", "-", "-o", "-", "--format", "stl", "--rate", "1"];
+            let mesh = run_on(&cage, &[&mesh[..], &["--scheme", scheme]].concat());
+            assert_eq!((code(&output), code(&mesh)), (is_refused.into(), is_refused.into()));
+            assert_eq!(json(&output)["errors"].as_array().unwrap().len(), usize::from(is_refused));
+            assert_eq!(stderr(&output), stderr(&mesh));
+            assert_eq!(stderr(&output).starts_with(limit), is_refused, "{}", stderr(&output));
+            if scheme == "cc" {
+                assert!(!stderr(&output).contains("takes their place"));
+            }
+        }
+    }
+}
+
 fn text_of_pyramid() -> String {
+    double_pyramid(20)
+}
+
+/// A double pyramid over a polygon with `n` sides.
+fn double_pyramid(n: usize) -> String {
     let mut text = "v 0 0 1\nv 0 0 -1\n".to_owned();
-    for k in 0..20 {
-        let angle = std::f64::consts::TAU * f64::from(k) / 20.0;
+    for k in 0..n {
+        let angle = std::f64::consts::TAU * k as f64 / n as f64;
         text += &format!("v {} {} 0\n", angle.cos(), angle.sin());
     }
-    for k in 0..20 {
-        let (a, b) = (k + 3, (k + 1) % 20 + 3);
+    for k in 0..n {
+        let (a, b) = (k + 3, (k + 1) % n + 3);
         text += &format!("f 1 {a} {b}\nf 2 {b} {a}\n");
     }
     text
@@ -228,6 +263,7 @@ fn repairs_must_be_chosen_and_need_a_file() {
         (&["--flip"], "--fix <OUT>"),
         (&["--fix", arg(&out), "--merge", "-1"], "a distance is a number from 0"),
         (&["--fix", "out.stl", "--flip"], "it can be .obj, .ply, .usda"),
+        (&["--fix", "-", "--flip"], "--fix needs a file, .obj, .ply or .usda: on stdout there is"),
     ] {
         let output = run(&[&["check", arg(&path)], words].concat());
         assert_eq!(code(&output), 2, "{words:?}");

@@ -141,6 +141,7 @@ fn faults_name_file_and_line() {
         ("0,nan,0\n", "stdin:1: u = nan is outside [0, 1]"),
         ("face,u,v\n0,half,0\n", "stdin:2: u 'half' is not a number"),
         ("-1,0,0\n", "stdin:1: face '-1' is not a number counted from 0"),
+        ("face,v,u\n0,0,0\n", "stdin:1: the columns must be face,u,v or face,u,v,corner, in this"),
         ("0,0\n", "stdin:1: a row is face,u,v or face,u,v,corner"),
         ("face;u;v\n", "stdin:1: a row is face,u,v or face,u,v,corner"),
     ] {

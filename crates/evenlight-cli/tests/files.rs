@@ -43,7 +43,9 @@ fn a_folder_that_is_not_there_is_exit_code_1_and_named() {
     for file in ["no/such/folder/a.bv", "no/such/folder/a.json"] {
         let output = run(&["patches", arg(&pillow), "-o", file]);
         assert_eq!(code(&output), 1);
-        assert!(stderr(&output).starts_with(&format!("error: {file}: ")), "{}", stderr(&output));
+        let expected =
+            format!("error: {file}: the folder no/such/folder does not exist: create it\n");
+        assert_eq!(stderr(&output), expected);
     }
 }
 
@@ -139,8 +141,21 @@ fn a_cage_without_inner_faces_gives_nothing() {
     let args = ["mesh", "-", "-o", "-", "--format", "obj", "--boundary", "none"];
     let output = run_on(square, &args);
     assert_eq!((code(&output), output.stdout.len()), (1, 0));
-    assert!(stderr(&output).contains("all 1 faces are left out"));
+    assert!(stderr(&output).contains("the only face is left out"));
     assert_eq!(code(&run_on(square, &args[..6])), 0, "it has one by the other rules");
+}
+
+#[test]
+fn one_face_is_left_out_and_two_are() {
+    let strip = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nv 3 1 0\n\
+                 f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n";
+    for (holes, expected) in
+        [("1/0/0 1", "1 of 3 faces is left out"), ("2/0/0 0 1", "2 of 3 faces are")]
+    {
+        let output = run_on(&format!("{strip}t hole {holes}\n"), &["check", "-"]);
+        assert_eq!(code(&output), 0);
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
 }
 
 #[test]

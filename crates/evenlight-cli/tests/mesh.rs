@@ -7,7 +7,7 @@ mod common;
 use std::collections::BTreeMap;
 use std::fs;
 
-use common::{CUBE, PILLOW, SCHEMES, arg, cage, run, run_on, stdout};
+use common::{CUBE, PILLOW, SCHEMES, arg, cage, code, run, run_on, stderr, stdout};
 
 fn obj(args: &[&str]) -> String {
     let pillow = cage(PILLOW);
@@ -121,4 +121,15 @@ fn what_a_format_cannot_hold_is_told() {
     assert_eq!(told("a.glb") + &told("a.obj"), "");
     assert!(told("a.ply").contains("a.ply: PLY has one normal for a vertex: on sharp edges it is"));
     assert!(told("a.stl").contains("STL holds nothing but triangles: `st`, `color` left out"));
+}
+
+#[test]
+fn coordinates_beyond_32_bits_are_refused_where_the_format_has_no_more() {
+    let cage = CUBE.replace("v -1 -1 -1\n", "v -1e300 -1 -1\n");
+    for format in ["stl", "glb"] {
+        let output = run_on(&cage, &["mesh", "-", "-o", "-", "--format", format]);
+        assert_eq!((code(&output), output.stdout.len()), (1, 0), "{format}");
+        let message = stderr(&output);
+        assert!(message.starts_with("error: stdout: a coordinate is too large for the 32 bits"));
+    }
 }

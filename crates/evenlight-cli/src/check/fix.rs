@@ -68,6 +68,10 @@ impl FixArgs {
         json: bool,
         output: &Target,
     ) -> Result<(), Failure> {
+        if *target == Target::Stdout {
+            let message = "--fix needs a file, .obj, .ply or .usda: on stdout there is the report";
+            return Err(Failure::Usage(message.to_owned()));
+        }
         let format = target.format::<CageFormat>(None)?;
         let repairs = self.repairs()?;
         let loaded = input::load(arg)?;

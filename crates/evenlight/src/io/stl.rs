@@ -22,9 +22,10 @@ const HEADER: &[u8; 80] =
 /// # Errors
 ///
 /// What `out` reports; and `InvalidInput`, before anything is written, for 2^32 triangles or
-/// more.
+/// more and for coordinates that are too large for 32 bits.
 pub fn write(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
     let count = triangle_count(mesh.triangles.len())?;
+    check_coordinates(&mesh.positions)?;
     out.write_all(HEADER)?;
     out.write_all(&count.to_le_bytes())?;
     for triangle in &mesh.triangles {
@@ -43,10 +44,19 @@ fn facet_normal([a, b, c]: [Point; 3]) -> Vector {
 }
 
 fn triangle_count(len: usize) -> io::Result<u32> {
-    u32::try_from(len).map_err(|_| {
-        let message = format!("{len} triangles are too many for STL (fewer than 2^32)");
-        io::Error::new(io::ErrorKind::InvalidInput, message)
-    })
+    u32::try_from(len)
+        .map_err(|_| invalid(format!("{len} triangles are too many for STL (fewer than 2^32)")))
+}
+
+fn check_coordinates(positions: &[Point]) -> io::Result<()> {
+    if positions.iter().flatten().all(|&x| (x as f32).is_finite()) {
+        return Ok(());
+    }
+    Err(invalid("a coordinate is too large for the 32 bits of STL: scale the cage".to_owned()))
+}
+
+fn invalid(message: String) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, message)
 }
 
 #[cfg(test)]
@@ -64,5 +74,16 @@ mod tests {
     fn the_number_of_triangles_must_fit() {
         assert_eq!(triangle_count(u32::MAX as usize).unwrap(), u32::MAX);
         assert!(triangle_count(1 << 32).is_err());
+    }
+
+    #[test]
+    fn coordinates_must_fit() {
+        let largest = f64::from(f32::MAX);
+        assert!(check_coordinates(&[[0.0, -largest, largest]]).is_ok());
+        // Half a unit in the last place more is rounded to infinity.
+        for x in [1e300, -1e39, f64::from_bits(largest.to_bits() + (1 << 28)), f64::NAN] {
+            let error = check_coordinates(&[[0.0; 3], [0.0, x, 0.0]]).unwrap_err();
+            assert!(error.to_string().contains("too large for the 32 bits of STL"));
+        }
     }
 }

@@ -140,7 +140,8 @@ impl MeshError {
         let face = |f: &FaceId| names.face(*f);
         match self {
             Self::NoFaces { num_vertices } => {
-                format!("there are no faces ({num_vertices} vertices): give the mesh its faces")
+                let vertices = if *num_vertices == 1 { "vertex" } else { "vertices" };
+                format!("there are no faces ({num_vertices} {vertices}): give the mesh its faces")
             }
             Self::TooLarge { what, count, limit } => format!(
                 "there are {count} {what}, but at most {limit} can be numbered: split the mesh"
