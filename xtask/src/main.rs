@@ -8,6 +8,8 @@ mod bench;
 #[cfg(feature = "library")]
 mod caps;
 #[cfg(feature = "library")]
+mod creases;
+#[cfg(feature = "library")]
 mod demo_cage;
 #[cfg(feature = "library")]
 mod document;
@@ -40,6 +42,8 @@ enum Chore {
     #[cfg(feature = "library")]
     Caps(caps::Arguments),
     #[cfg(feature = "library")]
+    Creases(creases::Arguments),
+    #[cfg(feature = "library")]
     DemoCage(demo_cage::Arguments),
     FeatureCages(feature_cages::Arguments),
     #[cfg(feature = "library")]
@@ -71,6 +75,8 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
         Chore::Bench(arguments) => bench::run(arguments),
         #[cfg(feature = "library")]
         Chore::Caps(arguments) => caps::run(arguments),
+        #[cfg(feature = "library")]
+        Chore::Creases(arguments) => creases::run(arguments),
         #[cfg(feature = "library")]
         Chore::DemoCage(arguments) => demo_cage::run(arguments),
         Chore::FeatureCages(arguments) => feature_cages::run(arguments),
