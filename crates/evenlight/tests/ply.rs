@@ -148,14 +148,30 @@ fn faulty_files_are_told_the_place_and_what_to_do() {
         HOUSE.replacen(from, to, 1)
     };
     for (text, expected) in [
-        (String::new(), "line 1: the file does not begin with the line `ply`"),
-        ("v 0 0 0\n".to_owned(), "line 1: the file does not begin with the line `ply`"),
+        (String::new(), "line 1: the file does not begin with the line `ply`: it is empty"),
+        (
+            "v 0 0 0\n".to_owned(),
+            "line 1: the file does not begin with the line `ply`: it looks like OBJ: let its name end",
+        ),
+        (
+            "plx\n".to_owned(),
+            "line 1: the file does not begin with the line `ply`: let its name end in that of its",
+        ),
         ("ply\n".to_owned(), "line 1: the header has no end: add the line `end_header`"),
         ("ply\nend_header\n".to_owned(), "line 2: the header names no format: add"),
         (swap("ascii", "text"), "line 2: `text` is no format: it can be ascii, binary_"),
-        (swap("1.0", "2.0"), "line 2: version 2.0 of PLY is not known, only 1.0"),
-        (swap("comment", "note"), "line 3: `note a house` is no line of a header"),
-        (swap("vertex 5", "vertex five"), "line 5: `five` is no number of items"),
+        (
+            swap("1.0", "2.0"),
+            "line 2: version 2.0 of PLY is not known: write the file as `format ascii 1.0`",
+        ),
+        (
+            swap("comment", "note"),
+            "line 3: `note a house` is no line of a header: they are written as",
+        ),
+        (
+            swap("vertex 5", "vertex five"),
+            "line 5: `five` is no number of items: write how many follow, as in `element vertex 8`",
+        ),
         (swap("vertex 5", "vertex -5"), "line 5: `-5` is no number of items"),
         (swap("vertex 5", "node 5"), "line 23: there is no element `vertex`: add it"),
         (swap("float32 x", "float32 X"), "line 5: the element `vertex` has no number `x`: add"),

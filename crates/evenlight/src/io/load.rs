@@ -11,7 +11,8 @@
 
 use std::fmt;
 
-use super::obj::{self, UnknownTag};
+use super::kind::Kind;
+use super::obj::{self, Skipped, UnknownTag};
 use super::{ply, usd};
 use crate::mesh::{Cage, CheckError, FaceId, LibraryNumbers, Mesh, Names, VertexId, Warning};
 
@@ -27,6 +28,27 @@ pub enum Format {
 }
 
 impl Format {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Obj, Self::Ply, Self::Usda];
+
+    /// Its name, as in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Usda => "USD",
+        }
+    }
+
+    /// How the names of such files end.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Obj => ".obj",
+            Self::Ply => ".ply",
+            Self::Usda => ".usda",
+        }
+    }
+
     /// The kind of file that ends in `.extension`, in small or capital letters.
     pub fn from_extension(extension: &str) -> Option<Self> {
         match extension.to_ascii_lowercase().as_str() {
@@ -40,10 +62,9 @@ impl Format {
 
     /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.
     pub fn of_content(bytes: &[u8]) -> Self {
-        match bytes {
-            [b'p', b'l', b'y', b'\n' | b'\r' | b' ', ..] => Self::Ply,
-            _ if bytes.starts_with(b"#usda") || bytes.starts_with(b"PXR-USDC") => Self::Usda,
-            _ => Self::Obj,
+        match Kind::of(bytes) {
+            Some(Kind::Cage(format)) => format,
+            Some(Kind::Other(_)) | None => Self::Obj,
         }
     }
 
@@ -130,6 +151,8 @@ impl Names for Naming {
 pub enum Notice {
     /// The lines with a tag that is not known.
     UnknownTag(UnknownTag),
+    /// The lines of groups, materials, normals and the like.
+    Skipped(Skipped),
     /// The vertices in no face.
     UnusedVertices {
         /// How many there are.
@@ -155,6 +178,7 @@ impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownTag(tag) => tag.fmt(f),
+            Self::Skipped(skipped) => skipped.fmt(f),
             Self::UnusedVertices { message, .. } | Self::Remark(message) => f.write_str(message),
         }
     }
@@ -222,10 +246,11 @@ impl fmt::Display for Refusal {
             Naming::FromZero => self.error.fmt(f)?,
         }
         // Most likely the cause, when what was read is not a mesh: the file is of another kind.
-        match &self.notices[..] {
+        let is_cause = |notice: &&Notice| !matches!(notice, Notice::Skipped(_));
+        match self.notices.iter().filter(is_cause).collect::<Vec<_>>()[..] {
             [] => Ok(()),
             [notice] => write!(f, "\nnote: {notice}"),
-            [notice, others @ ..] => write!(f, "\nnote: {notice}, and {} more", others.len()),
+            [notice, ref others @ ..] => write!(f, "\nnote: {notice}, and {} more", others.len()),
         }
     }
 }

@@ -351,7 +351,11 @@ fn check_indices(indices: &[u32], num_values: usize) -> Result<(), String> {
 }
 
 fn check_sharpness(found: &super::attributes::Found<[f64]>) -> Result<(), ReadError> {
-    if found.value.iter().any(|x| x.is_nan()) { Err(found.fault("has NaN")) } else { Ok(()) }
+    match found.value.iter().find(|x| x.is_nan() || **x < 0.0) {
+        Some(x) if x.is_nan() => Err(found.fault("has NaN")),
+        Some(x) => Err(found.fault(&format!("has {x}, but sharpness is 0 (smooth) or more"))),
+        None => Ok(()),
+    }
 }
 
 /// Makes equal values of a vertex one.

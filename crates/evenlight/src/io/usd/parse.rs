@@ -16,6 +16,8 @@
 use super::ReadError;
 use super::lexer::{Lexer, Token};
 use crate::io::excerpt::excerpt;
+use crate::io::kind::Kind;
+use crate::io::load::Format;
 
 /// What is at the top of a file.
 #[derive(Debug)]
@@ -84,7 +86,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Layer, ReadError> {
         fault(line, "the text is not UTF-8: convert it")
     })?;
     if !text.starts_with("#usda 1.") {
-        return Err(fault(1, "the file does not begin with `#usda 1.0`"));
+        let advice = Kind::advice(bytes, Format::Usda);
+        return Err(fault(1, &format!("the file does not begin with `#usda 1.0`: {advice}")));
     }
     Parser::new(text)?.layer()
 }
@@ -338,8 +341,8 @@ impl<'a> Parser<'a> {
                 }
                 _ => self.single(&mut list)?,
             }
-            if self.next != Token::Sign(']') {
-                self.expect(',')?;
+            if self.next != Token::Sign(']') && !self.eat(',')? {
+                return Err(self.unexpected("after a value of a list, `,` or `]`"));
             }
         }
         Ok(list.finish())
@@ -395,8 +398,8 @@ impl<'a> Parser<'a> {
                     (single.numbers.len() == 1).then_some(1)
                 };
                 count = count.zip(added).map(|(a, b)| a + b);
-                if parser.next != Token::Sign(')') {
-                    parser.expect(',')?;
+                if parser.next != Token::Sign(')') && !parser.eat(',')? {
+                    return Err(parser.unexpected("after a number of a tuple, `,` or `)`"));
                 }
             }
             Ok(count)
