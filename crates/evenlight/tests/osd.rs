@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use common::options;
 use evenlight::io::obj;
 use evenlight::mesh::FaceVaryingRule;
-use evenlight::{Cage, FaceId, Mesh, SchemeKind, Surface};
+use evenlight::{Cage, FaceId, Mesh, QuadId, SchemeKind, Surface};
 
 /// Golden files have 13 decimals; 1e-12 is what is asked for.
 const TOLERANCE: f64 = 1e-12;
@@ -112,11 +112,19 @@ enum Kind {
     Cap,
 }
 
+/// What is compared. Seams make vertices of channels irregular that those of the surface are not.
+#[derive(Clone, Copy)]
+enum Of {
+    Positions,
+    Channel,
+}
+
 /// Compares a surface or channel that `eval` gives at (face, corner, u, v).
 fn compare(
+    of: Of,
     surface: &Surface,
     expected: &Expected,
-    eval: impl Fn(evenlight::QuadId, f64, f64) -> Option<[Vec<f64>; 3]>,
+    eval: impl Fn(QuadId, f64, f64) -> Option<[Vec<f64>; 3]>,
 ) -> Difference {
     let mut difference = Difference::default();
     for (&(face, corner), points) in &expected.quads {
@@ -127,9 +135,13 @@ fn compare(
             let place = || format!("face {face}, corner {corner}, ({u}, {v})");
             let missing = || [0; 3].map(|_| vec![f64::NAN; expected[0].len()]);
             let found = eval(quad, u, v).unwrap_or_else(missing);
-            // Seams make vertices irregular too; channels have no derivatives there.
-            let is_cap = is_irregular(surface, face, corner, is_whole, u, v)
-                || is_corner(u, v) && found[1].iter().any(|x| x.is_nan());
+            let is_cap = match of {
+                Of::Positions => is_extraordinary(surface, quad, [u, v]),
+                Of::Channel => {
+                    may_be_irregular(surface, face, corner, is_whole, u, v)
+                        || is_corner(u, v) && found[1].iter().any(|x| x.is_nan())
+                }
+            };
             let kind = if is_cap { Kind::Cap } else { Kind::Value };
             difference.note(kind, &expected[0], &found[0], place);
             for k in (1..3).filter(|_| !is_cap) {
@@ -150,8 +162,17 @@ fn is_corner(u: f64, v: f64) -> bool {
     [u, v].iter().all(|&x| x == 0.0 || x == 1.0)
 }
 
-/// Whether (u,v) is a corner of the quad that is not a regular vertex of a smooth region.
-fn is_irregular(
+/// Whether (u,v) of a quad is an extraordinary point, so that OpenSubdiv has a cap there. Corners that
+/// are regular on a boundary, on a crease or as corners are none.
+fn is_extraordinary(surface: &Surface, quad: QuadId, at: [f64; 2]) -> bool {
+    let points = surface.extraordinary_points().iter();
+    let mut sectors = points.flat_map(|point| &point.sectors);
+    sectors.any(|sector| sector.quad == quad && sector.center == at)
+}
+
+/// Whether (u,v) is a corner of the quad that may be irregular in a channel: not the regular vertex of
+/// a smooth region.
+fn may_be_irregular(
     surface: &Surface,
     face: u32,
     corner: usize,
@@ -189,7 +210,7 @@ fn is_irregular(
 fn position_difference(mesh: &Mesh, expected: &Expected) -> Difference {
     let cage = Cage::new(mesh.clone()).unwrap();
     let surface = Surface::build(cage, options(SchemeKind::CatmullClark)).unwrap();
-    compare(&surface, expected, |quad, u, v| {
+    compare(Of::Positions, &surface, expected, |quad, u, v| {
         let jet = surface.eval(quad, u, v)?.jet;
         Some([jet.p, jet.du, jet.dv].map(|x| x.to_vec()))
     })
@@ -201,7 +222,7 @@ fn texture_difference(mesh: &Mesh, expected: &Expected, rule: FaceVaryingRule) -
     let cage = Cage::new(mesh).unwrap();
     let surface = Surface::build(cage, options(SchemeKind::CatmullClark)).unwrap();
     let st = surface.primvars().iter().position(|primvar| primvar.name == "st").unwrap();
-    compare(&surface, expected, |quad, u, v| {
+    compare(Of::Channel, &surface, expected, |quad, u, v| {
         let jet = surface.eval_primvar(st, quad, u, v)?;
         Some([jet.value, jet.du, jet.dv].map(|x| x[..2].to_vec()))
     })

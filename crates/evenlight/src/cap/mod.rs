@@ -21,10 +21,10 @@
 //! If the patches of a ring are split themselves, a cap is split in the smallest multiple of that.
 //!
 //! All this is for points that are smooth all around. At boundaries, creases, corners and darts, and at
-//! valences 2, 4 and above [`MAX_VALENCE`], there is one bi-4 patch per sector (bi-3, if that is asked
-//! for), with first derivatives to the last ring, exact creases, and common tangent planes on the
-//! lines if the point has a tangent plane (module `plain`); behind fair rings beside a crease there are
-//! 2 x 2 (module `fair`).
+//! valences 2, above [`MAX_VALENCE`], and 4 (of nets by themselves; in cages that is regular), there is one
+//! bi-4 patch per sector (bi-3, if that is asked for), with first derivatives to the last ring, exact
+//! creases, and at fans common tangent planes on the lines if the point has a tangent plane (module
+//! `plain`); behind fair rings beside a crease there are 2 x 2 (module `fair`).
 
 mod border;
 mod fair;
