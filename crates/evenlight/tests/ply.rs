@@ -102,7 +102,12 @@ fn all_ways_to_write_it_mean_the_same() {
         HOUSE.trim_end().to_owned(),
         HOUSE.to_owned() + "\n \t\n",
     ] {
-        assert_eq!(read(&variant), house, "{variant}");
+        let found = read(&variant);
+        assert_eq!((&found.mesh, &found.remarks), (&house.mesh, &house.remarks), "{variant}");
+        // Where every item keeps its line, all is equal.
+        if variant.trim_end().lines().count() == HOUSE.trim_end().lines().count() {
+            assert_eq!(found, house, "{variant}");
+        }
     }
     let more = read(&(HOUSE.to_owned() + "1 2\n"));
     assert_eq!(more.mesh, house.mesh);
@@ -319,4 +324,25 @@ proptest! {
             prop_assert_eq!(written(&read.mesh, encoding), bytes);
         }
     }
+}
+
+#[test]
+fn faults_of_the_mesh_are_named_by_number_and_line_in_text_alone() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+                property float z\nelement face 1\nproperty list uchar int vertex_indices\n\
+                end_header\n0 0 0\n1 0\n0 0 nan 0\n\n4 0 1\n2 1\n";
+    let fault = |bytes: &[u8]| {
+        let loaded = evenlight::io::load::Format::Ply.read(bytes, None).unwrap();
+        loaded.check().unwrap_err().to_string()
+    };
+    let expected = "2 faults:\n  vertex 2 (line 12) is at (0, NaN, 0): give it coordinates that are \
+                    finite numbers\n  face 0 (line 14) comes to vertex 1 (line 11) more than once:";
+    let found = fault(text.as_bytes());
+    assert!(found.starts_with(expected), "{found}");
+    assert!(found.ends_with(" (vertices and faces are counted from 0)"), "{found}");
+    let binary = fault(&written(&read(text).mesh, Encoding::LittleEndian));
+    let without = ["12", "14", "11"]
+        .iter()
+        .fold(found, |text, line| text.replace(&format!(" (line {line})"), ""));
+    assert_eq!(binary, without);
 }

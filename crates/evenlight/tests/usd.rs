@@ -252,10 +252,6 @@ fn what_is_not_followed_is_said() {
 
 #[test]
 fn faulty_files_are_told_the_line_and_what_to_do() {
-    let swap = |from: &str, to: &str| {
-        assert!(HOUSE.contains(from), "{from}");
-        HOUSE.replacen(from, to, 1)
-    };
     for (text, expected) in [
         (String::new(), "line 1: the file does not begin with `#usda 1.0`: it is empty"),
         (
@@ -293,6 +289,30 @@ fn faulty_files_are_told_the_line_and_what_to_do() {
         (swap("3, 2, 4,", "3, 2, 5,"), "line 20: `faceVertexIndices` asks for vertex 5, but there"),
         (swap("(0, 0, 0), (1", "(0, 0), (1"), "line 21: `points` must have tuples of 3 numbers"),
         (swap("edgeOnly", "edges"), "line 24: `interpolateBoundary` is `edges`, but can be none, "),
+        (swap("note = '''", "note = '"), "line 44: the string has no end"),
+        (swap("'''\n", "\n"), "line 44: the string has no end: close it by '''"),
+        (swap("        \"note\"'''\n    }\n}\n", "'''"), "line 45: a property, a prim or `}` is"),
+        (swap("asset texture", "asset $"), "line 44: `$` has no meaning here"),
+        (swap("1.5e0", "1.5ee"), "line 21: `1.5ee` is not a number: correct it"),
+        (swap("[4, 3]", &"(".repeat(500)), "line 19: there are more than 100 brackets in each"),
+    ] {
+        let found = error(&text);
+        assert!(found.starts_with(expected), "{expected}\n{found}");
+    }
+    let latin = [b"#usda 1.0\n# caf", &b"\xe9\n"[..]].concat();
+    let fault = usd::read(&latin, None).unwrap_err().to_string();
+    assert_eq!(fault, "line 2: the text is not UTF-8: convert it");
+}
+
+/// The house with one thing in it replaced.
+fn swap(from: &str, to: &str) -> String {
+    assert!(HOUSE.contains(from), "{from}");
+    HOUSE.replacen(from, to, 1)
+}
+
+#[test]
+fn faulty_tags_and_primvars_are_told_the_line_and_what_to_do() {
+    for (text, expected) in [
         (swap("[3, 2]", "[3, 1]"), "line 27: `creaseLengths` must be numbers from 2 that add up"),
         (swap("[2.5, inf]", "[2.5]"), "line 28: `creaseSharpnesses` must have a number for each"),
         (swap("[2.5, inf]", "[2.5, nan]"), "line 28: `creaseSharpnesses` has NaN"),
@@ -318,19 +338,10 @@ fn faulty_files_are_told_the_line_and_what_to_do() {
             swap("[1, 2, 3, 4, 5]", "[1, 2, 3, 4]"),
             "line 41: `primvars:heat` has 4 values for 5 ver",
         ),
-        (swap("note = '''", "note = '"), "line 44: the string has no end"),
-        (swap("'''\n", "\n"), "line 44: the string has no end: close it by '''"),
-        (swap("        \"note\"'''\n    }\n}\n", "'''"), "line 45: a property, a prim or `}` is"),
-        (swap("asset texture", "asset $"), "line 44: `$` has no meaning here"),
-        (swap("1.5e0", "1.5ee"), "line 21: `1.5ee` is not a number: correct it"),
-        (swap("[4, 3]", &"(".repeat(500)), "line 19: there are more than 100 brackets in each"),
     ] {
         let found = error(&text);
         assert!(found.starts_with(expected), "{expected}\n{found}");
     }
-    let latin = [b"#usda 1.0\n# caf", &b"\xe9\n"[..]].concat();
-    let fault = usd::read(&latin, None).unwrap_err().to_string();
-    assert_eq!(fault, "line 2: the text is not UTF-8: convert it");
 }
 
 #[test]
@@ -362,6 +373,16 @@ fn transforms_that_cannot_be_applied_are_refused() {
         let found = with(ops);
         assert!(found.contains(expected), "{found}");
     }
+}
+
+#[test]
+fn points_are_named_by_number_and_line() {
+    let text = "#usda 1.0\ndef Mesh \"Cage\" {\n    point3f[] points = [(0, 0, 0),\n\
+                (1, 0, 0), (0,\n1, inf)]\nint[] faceVertexCounts = [3]\n\
+                int[] faceVertexIndices = [0, 1, 2]\n}\n";
+    let loaded = evenlight::io::load::Loaded::from(read(text));
+    let found = loaded.check().unwrap_err().to_string();
+    assert!(found.starts_with("vertex 2 (line 4) is at (0, 1, inf): give it"), "{found}");
 }
 
 /// Texture coordinates stay what they are said to be.

@@ -14,7 +14,7 @@ use std::fmt;
 use super::kind::Kind;
 use super::obj::{self, Skipped, UnknownTag};
 use super::{ply, usd};
-use crate::mesh::{Cage, CheckError, FaceId, LibraryNumbers, Mesh, Names, VertexId, Warning};
+use crate::mesh::{Cage, CheckError, FaceId, Mesh, Names, VertexId, Warning};
 
 /// The kinds of files that hold cages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,22 +126,46 @@ impl Loaded {
 pub enum Naming {
     /// By their numbers from 1, and by lines.
     Lines(obj::Source),
-    /// By their numbers from 0.
-    FromZero,
+    /// By their numbers from 0, and by lines.
+    LinesFromZero(Lines),
+}
+
+/// The lines, from 1, on which vertices and faces begin in a file that counts them from 0; empty
+/// where they are not known, as in binary files.
+///
+/// As [`Names`] it calls a vertex "5 (line 17)": its number, from 0, and its line.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Lines {
+    pub(super) vertices: Vec<u32>,
+    pub(super) faces: Vec<u32>,
+}
+
+impl Names for Lines {
+    fn vertex(&self, vertex: VertexId) -> String {
+        numbered(vertex.0, self.vertices.get(vertex.index()))
+    }
+
+    fn face(&self, face: FaceId) -> String {
+        numbered(face.0, self.faces.get(face.index()))
+    }
+}
+
+fn numbered(id: u32, line: Option<&u32>) -> String {
+    line.map_or_else(|| id.to_string(), |line| format!("{id} (line {line})"))
 }
 
 impl Names for Naming {
     fn vertex(&self, vertex: VertexId) -> String {
         match self {
             Self::Lines(source) => source.vertex(vertex),
-            Self::FromZero => LibraryNumbers.vertex(vertex),
+            Self::LinesFromZero(source) => source.vertex(vertex),
         }
     }
 
     fn face(&self, face: FaceId) -> String {
         match self {
             Self::Lines(source) => source.face(face),
-            Self::FromZero => LibraryNumbers.face(face),
+            Self::LinesFromZero(source) => source.face(face),
         }
     }
 }
@@ -243,7 +267,10 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.naming {
             Naming::Lines(_) => f.write_str(&self.error.describe(&self.naming))?,
-            Naming::FromZero => self.error.fmt(f)?,
+            Naming::LinesFromZero(_) => {
+                let faults = self.error.describe(&self.naming);
+                write!(f, "{faults} (vertices and faces are counted from 0)")?;
+            }
         }
         // Most likely the cause, when what was read is not a mesh: the file is of another kind.
         let is_cause = |notice: &&Notice| !matches!(notice, Notice::Skipped(_));

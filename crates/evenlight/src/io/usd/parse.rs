@@ -60,8 +60,8 @@ pub(super) struct Attribute {
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
-    /// Numbers in tuples of `width`, or single ones.
-    Numbers { values: Vec<f64>, width: usize },
+    /// Numbers in tuples of `width`, each of a list with its line, or single ones.
+    Numbers { values: Vec<f64>, width: usize, lines: Vec<u32> },
     /// Strings or tokens.
     Texts(Vec<String>),
     /// `None`, or nothing.
@@ -313,7 +313,8 @@ impl<'a> Parser<'a> {
             Token::Sign('(') => {
                 let mut values = Vec::new();
                 let width = self.tuple(&mut values)?;
-                Ok(width.map_or(Value::Other, |width| Value::Numbers { values, width }))
+                let lines = Vec::new();
+                Ok(width.map_or(Value::Other, |width| Value::Numbers { values, width, lines }))
             }
             Token::Sign('{') => self.nested(Self::dictionary),
             Token::Name("None") => self.advance().map(|_| Value::None),
@@ -332,6 +333,7 @@ impl<'a> Parser<'a> {
         while !self.eat(']')? {
             match self.next {
                 Token::Sign('(') => {
+                    list.lines.push(u32::try_from(self.line).unwrap_or(u32::MAX));
                     let width = self.tuple(&mut list.numbers)?;
                     list.add_width(width);
                 }
@@ -454,6 +456,8 @@ const COMPOSITION: [&str; 5] = ["references", "payload", "inherits", "specialize
 struct Collected {
     numbers: Vec<f64>,
     texts: Vec<String>,
+    /// The line of every tuple.
+    lines: Vec<u32>,
     /// The numbers in every tuple.
     width: Option<usize>,
     is_other: bool,
@@ -475,7 +479,10 @@ impl Collected {
             _ if self.is_other => Value::Other,
             (false, false) => Value::Other,
             (true, false) => Value::Texts(self.texts),
-            _ => Value::Numbers { values: self.numbers, width: self.width.unwrap_or(1) },
+            _ => {
+                let Self { numbers: values, lines, width, .. } = self;
+                Value::Numbers { values, width: width.unwrap_or(1), lines }
+            }
         }
     }
 }
