@@ -66,8 +66,7 @@ pub fn run(args: &CheckArgs) -> Result<(), Failure> {
     for warning in &report.warnings {
         warn(format_args!("{}: {warning}", args.cage.source));
     }
-    let refused = |error: &LoadError| Failure::Unusable(format!("{}: {error}", args.cage.source));
-    result.as_ref().map_err(refused)?;
+    result.as_ref().map_err(|error| args.cage.source.refused(error))?;
     match &report.errors[..] {
         [] if args.json => Ok(()),
         [] => args.output.write(|out| report.write_text(&args.cage.source, out)),

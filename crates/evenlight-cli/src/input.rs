@@ -9,9 +9,11 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use evenlight::io::load::{Format, LoadError, Loaded};
+use evenlight::io::load::{Format, LoadError, Loaded, Naming};
+use evenlight::io::obj::Reason;
+use evenlight::mesh::MeshError;
 use evenlight::mesh::isolation::Place;
-use evenlight::surface::{PointRule, Reason, SurfaceError};
+use evenlight::surface::{self, PointRule, SurfaceError};
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
 use crate::error::{Failure, warn};
@@ -61,10 +63,44 @@ impl Source {
         }
     }
 
+    /// The failure that a cage from here cannot be used; says why it was read as OBJ, if that may be
+    /// the cause.
+    pub fn refused(&self, error: &LoadError) -> Failure {
+        let is_file = matches!(self, Self::File(_));
+        let note = match (self.format(), is_other_kind(error)) {
+            (Some(_), true) => "\nnote: it is read as OBJ because of its name".to_owned(),
+            (None, false) if is_file && is_no_obj(error) => format!(
+                "\nnote: it is read as OBJ, since neither its name nor its beginning tells what it \
+                 is; the names of cages end in {}",
+                Format::ALL.map(Format::ending).join(", ")
+            ),
+            _ => String::new(),
+        };
+        Failure::Unusable(format!("{self}: {error}{note}"))
+    }
+
     /// All bytes, which must be UTF-8; a failure names the place.
     pub fn read_text(&self) -> Result<String, Failure> {
         String::from_utf8(self.read()?)
             .map_err(|_| Failure::Unusable(format!("{self}: this is not a text file (UTF-8)")))
+    }
+}
+
+/// Whether the file was to be read as OBJ and is something else.
+fn is_other_kind(error: &LoadError) -> bool {
+    let LoadError::Obj(error) = error else { return false };
+    error.faults.iter().any(|fault| matches!(fault.reason, Reason::OtherKind { .. }))
+}
+
+/// Whether the file may be no OBJ at all, though it was read as such.
+fn is_no_obj(error: &LoadError) -> bool {
+    match error {
+        LoadError::Obj(_) => true,
+        LoadError::Check(refusal) => {
+            let no_faces = |fault: &MeshError| matches!(fault, MeshError::NoFaces { .. });
+            matches!(refusal.naming, Naming::Lines(_)) && refusal.error.errors.iter().any(no_faces)
+        }
+        LoadError::Ply(_) | LoadError::Usd(_) => false,
     }
 }
 
@@ -116,8 +152,7 @@ pub fn read_surface(args: &SurfaceArgs) -> Result<Surface, Failure> {
 /// The cage that `arg` names; what is ignored is said on stderr.
 pub fn read_cage(arg: &CageArg) -> Result<Arc<Cage>, Failure> {
     let source = &arg.source;
-    let refused = |error: LoadError| Failure::Unusable(format!("{source}: {error}"));
-    let (cage, notices) = load(arg)?.check().map_err(refused)?;
+    let (cage, notices) = load(arg)?.check().map_err(|error| source.refused(&error))?;
     for notice in notices {
         warn(format_args!("{source}: {notice}"));
     }
@@ -126,7 +161,7 @@ pub fn read_cage(arg: &CageArg) -> Result<Arc<Cage>, Failure> {
 
 /// The mesh that `arg` names, not checked.
 pub fn load(arg: &CageArg) -> Result<Loaded, Failure> {
-    read_mesh(arg)?.map_err(|error| Failure::Unusable(format!("{}: {error}", arg.source)))
+    read_mesh(arg)?.map_err(|error| arg.source.refused(&error))
 }
 
 /// The mesh that `arg` names, not checked, or why the bytes are none.
@@ -152,7 +187,8 @@ pub fn build(
     })?;
     let places = surface.extraordinary_points().iter().filter_map(|point| {
         let place = point.vertex.map(Place::Vertex).or(point.face.map(Place::FaceCentre))?;
-        (point.rule == PointRule::CatmullClark(Reason::Valence)).then_some((place, point.valence))
+        (point.rule == PointRule::CatmullClark(surface::Reason::Valence))
+            .then_some((place, point.valence))
     });
     if let Some(warning) = valence_warning(places, options) {
         warn(format_args!("{source}: {warning}"));

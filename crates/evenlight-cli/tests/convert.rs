@@ -99,3 +99,67 @@ fn a_mesh_of_several_in_a_usd_file_is_chosen_by_its_path() {
     assert_eq!(code(&output), 2);
     assert!(stderr(&output).contains("--prim is for USD files only"), "{}", stderr(&output));
 }
+
+#[test]
+fn what_obj_says_beyond_a_cage_is_told_in_one_line() {
+    let text = CUBE.replace("f 1 4", "g a\nvn 0 0 1\nusemtl b\ns 1\no c\nf 1 4");
+    let expected = "warning: stdin: line 9 and 4 more: objects, groups, smoothing groups, materials \
+                    and normals (o, g, s, usemtl, vn) are not kept\n";
+    for words in [
+        &["convert", "-", "-", "--format", "obj"][..],
+        &["mesh", "-", "-o", "-", "--format", "obj", "--rate", "1"],
+        &["check", "-"],
+    ] {
+        let output = run_on(&text, words);
+        assert_eq!((code(&output), stderr(&output).as_str()), (0, expected), "{words:?}");
+    }
+}
+
+#[test]
+fn files_of_another_kind_than_their_name_says_are_told_so() {
+    let ply = stdout(&run_on(CUBE, &["convert", "-", "-", "--format", "ply", "--ascii"]));
+    for (name, text, expected) in [
+        (
+            "a.obj",
+            ply.as_str(),
+            "line 1: the file is read as OBJ, but it looks like PLY: let its name end in .ply\n\
+             note: it is read as OBJ because of its name\n",
+        ),
+        (
+            "a.ply",
+            CUBE,
+            "line 1: the file does not begin with the line `ply`: it looks like OBJ: let its name \
+             end in .obj\n",
+        ),
+        (
+            "a.fbx",
+            "Kaydara FBX Binary  ",
+            "line 1: the file is read as OBJ, but it looks like FBX, which is not read: convert it \
+             to one of OBJ, PLY, USD\n",
+        ),
+        (
+            "a.txt",
+            "1 2 3\n",
+            "there are no faces (0 vertices): give the mesh its faces\n\
+             note: line 1 is ignored: the tag `1` is not supported\n\
+             note: it is read as OBJ, since neither its name nor its beginning tells what it is; the \
+             names of cages end in .obj, .ply, .usda\n",
+        ),
+    ] {
+        let (_folder, path) = common::file(name, text);
+        let (check, mesh) = (["check", arg(&path)], ["mesh", arg(&path), "-o", "a.stl"]);
+        for words in [&check[..], &mesh] {
+            let output = run(words);
+            let lines: Vec<String> = stderr(&output)
+                .lines()
+                .filter(|line| !line.starts_with("warning: "))
+                .map(|line| format!("{line}\n"))
+                .collect();
+            assert_eq!(code(&output), 1);
+            assert_eq!(lines.concat(), format!("error: {}: {expected}", arg(&path)));
+        }
+    }
+    // The beginning tells, where the name does not.
+    let (_folder, path) = common::file("a.txt", &ply);
+    assert_eq!(code(&run(&["check", arg(&path)])), 0);
+}

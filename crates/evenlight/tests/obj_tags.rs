@@ -49,7 +49,7 @@ fn creases_are_pairs_or_chains() {
         ),
         ("t crease 3/1/0 0 1 2 10", vec![crease(0, 1, 10.0), crease(1, 2, 10.0)]),
         ("t crease 3/2/0 0 1 2 10 inf", vec![crease(0, 1, 10.0), crease(1, 2, f64::INFINITY)]),
-        ("t crease 2/1/0 4 1 -1", vec![crease(4, 1, 0.0)]),
+        ("t crease 2/1/0 4 1 -0", vec![crease(4, 1, 0.0)]),
         ("t crease 2/1/0 0 1 1\nt crease 2/1/0 1 0 2", vec![crease(0, 1, 1.0), crease(1, 0, 2.0)]),
     ] {
         assert_eq!(tags(line).creases, expected, "{line}");
@@ -117,6 +117,14 @@ fn faulty_tags_are_named_by_line() {
         ("t crease 2/1/0 0 1 x", "`x` is no argument of the tag `crease`: write a number"),
         ("t crease 2/1/0 0 1 nan", "`nan` is no argument of the tag `crease`: write a number"),
         ("t crease 2/1/0 0 1.5 1", "`1.5` is no argument of the tag `crease`: write a whole"),
+        (
+            "t crease 4/2/0 0 1 4 5 1 -0.5",
+            "`-0.5` is no argument of the tag `crease`: write a sharpness from 0 (smooth) to 10",
+        ),
+        (
+            "t corner 1/1/0 0 -inf",
+            "`-inf` is no argument of the tag `corner`: write a sharpness from 0 (smooth) to 10",
+        ),
         ("t crease 2/1/0 0 -1 1", "`-1` is no argument of the tag `crease`: write a number from 0"),
         ("t crease 2/1/0 0 6 1", "the tag asks for vertex 6, but the file has 6, and tags count"),
         ("t corner 1/1/0 9 1", "the tag asks for vertex 9, but the file has 6"),

@@ -74,7 +74,7 @@ fn all_ways_to_write_lines_mean_the_same_mesh() {
         text.trim_end().to_owned(),
         text.trim_end().to_owned() + "\\",
         // Weights and colours.
-        text.replace(" 0\nv", " 0 0.5\nv"),
+        text.replace(" 0\nv", " 0 1.0\nv"),
         text.replace(" 0\nv", " 0 0.5 0.25 1e-2\nv"),
         // Faces first.
         "f 1/1/1 2/3/2 3 4\nf 4 3 5\n".to_owned() + HOUSE,
@@ -110,6 +110,8 @@ fn faulty_lines_are_named_with_their_text() {
         ("v 0 0 0\n\nv 1,0 0 0", "line 3, vertex 2: `1,0` is not a number"),
         ("v 0 0 0 red", "line 1, vertex 1: `red` is not a number"),
         ("v 1 2 # 3", "line 1, vertex 1: `v 1 2` has 2 of the 3 coordinates: add"),
+        ("v 0 0 0 0.5", "line 1, vertex 1: the weight `0.5` is not 1, but rational points are not"),
+        ("v 0 0 0 nan", "line 1, vertex 1: the weight `NaN` is not 1"),
         ("v", "line 1, vertex 1: `v` has 0 of the 3 coordinates"),
         ("v 1 \\\n2\nf", "line 1, vertex 1: `v 1 \\ 2` has 2 of the 3 coordinates"),
         ("f 1 a 3", "line 1, face 1: `a` is not a corner: correct it, as in 1, 1/2,"),
@@ -134,8 +136,27 @@ fn faulty_lines_are_named_with_their_text() {
             "v 0 0 0\nf 1 1 1\nf 4294967297",
             "line 3, face 2: `4294967297` asks for vertex 4294967297",
         ),
-        ("f 99999999999999999999", "line 1, face 1: `99999999999999999999` asks for vertex"),
-        ("f -99999999999999999999", "line 1, face 1: `-99999999999999999999` asks for vertex"),
+        (
+            "f 1/99999999999999999999 1 1\nv 0 0 0",
+            "line 1, face 1: `1/99999999999999999999` asks for texture coordinate \
+             99999999999999999999, but the file has 0",
+        ),
+        (
+            "f 99999999999999999999",
+            "line 1, face 1: `99999999999999999999` asks for vertex 99999999999999999999, but",
+        ),
+        (
+            "f -99999999999999999999",
+            "line 1, face 1: `-99999999999999999999` asks for vertex -99999999999999999999, but 0",
+        ),
+        (
+            "ply\nformat ascii 1.0",
+            "line 1: the file is read as OBJ, but it looks like PLY: let its",
+        ),
+        (
+            "glTF\u{2}",
+            "line 1: the file is read as OBJ, but it looks like glTF, which is not read:",
+        ),
     ] {
         let error = read_error(text);
         assert!(error.starts_with(expected), "{text:?}: {error}");
@@ -196,8 +217,9 @@ fn a_file_without_faces_says_so_and_what_else_it_may_be() {
     for text in ["", "\n\n", "# empty", "\u{feff}", "\\"] {
         assert_eq!(load_error(text), "there are no faces (0 vertices): give the mesh its faces");
     }
-    let error = load_error("ply\nformat ascii 1.0\nelement vertex 8\nelement face 6\n");
-    let note = "\nnote: line 1 is ignored: the tag `ply` is not supported, and 2 more";
+    assert!(load_error("v 0 0 0").starts_with("there are no faces (1 vertex): "));
+    let error = load_error("g a\nnff\nformat ascii 1.0\nelement vertex 8\nelement face 6\n");
+    let note = "\nnote: line 2 is ignored: the tag `nff` is not supported, and 2 more";
     assert!(error.starts_with("there are no faces (0 vertices)") && error.ends_with(note));
 }
 
@@ -220,6 +242,18 @@ fn unknown_tags_are_counted_and_reported_once() {
         "line 2 is ignored: the tag `p` is not supported",
     ];
     assert_eq!(shown, expected);
+}
+
+#[test]
+fn what_is_no_part_of_a_cage_is_told_in_one_sentence() {
+    let text = HOUSE.to_owned() + "g a\nf 1//1 2 3 4\nusemtl b\nf 4 3 5\ng\n";
+    let (_, notices) = obj::read_cage(text.as_bytes()).unwrap();
+    let shown: Vec<String> = notices.iter().map(Notice::to_string).collect();
+    let expected = "line 9 and 4 more: groups, materials and normals (g, usemtl, vn) are not kept";
+    assert_eq!(shown, [expected]);
+    let obj = read("v 0 0 0 1\nv 0 0 0 1 2\nv 0 0 0 1 2 3 4\nv 0 0 0\n");
+    let expected = "line 2 and 1 more: further numbers of vertices (v) are not kept";
+    assert_eq!(obj.skipped.map(|skipped| skipped.to_string()).as_deref(), Some(expected));
 }
 
 #[test]

@@ -252,12 +252,12 @@ fn what_is_not_followed_is_said() {
 
 #[test]
 fn faulty_files_are_told_the_line_and_what_to_do() {
-    let swap = |from: &str, to: &str| {
-        assert!(HOUSE.contains(from), "{from}");
-        HOUSE.replacen(from, to, 1)
-    };
     for (text, expected) in [
-        (String::new(), "line 1: the file does not begin with `#usda 1.0`"),
+        (String::new(), "line 1: the file does not begin with `#usda 1.0`: it is empty"),
+        (
+            "v 0 0 0\n".to_owned(),
+            "line 1: the file does not begin with `#usda 1.0`: it looks like OBJ: let its name end in",
+        ),
         (swap("#usda", "#USDA"), "line 1: the file does not begin"),
         ("PXR-USDC\0\0".to_owned(), "line 1: this is binary USD, which is not read: convert it"),
         (
@@ -266,8 +266,18 @@ fn faulty_files_are_told_the_line_and_what_to_do() {
         ),
         (swap("\"World\" (", "World ("), "line 9: a string is expected, not `World`"),
         (swap("kind =", "kind"), "line 10: `=` is expected, not the string `component`"),
-        (swap("[4, 3]", "[4 3]"), "line 19: `,` is expected, not `3`"),
-        (swap("[4, 3]", "[4, 3"), "line 20: `,` is expected, not `int`"),
+        (
+            swap("[4, 3]", "[4 3]"),
+            "line 19: after a value of a list, `,` or `]` is expected, not `3`",
+        ),
+        (
+            swap("[4, 3]", "[4, 3"),
+            "line 20: after a value of a list, `,` or `]` is expected, not `int`",
+        ),
+        (
+            swap("(0, 0, 0), (1", "(0, 0 0), (1"),
+            "line 21: after a number of a tuple, `,` or `)` is expected, not `0`",
+        ),
         (swap("[4, 3]", "[4, x]"), "line 19: `faceVertexCounts` must be a list of numbers"),
         (swap("[4, 3]", "[4, 2.5]"), "line 19: `faceVertexCounts` has 2.5, which is not a whole"),
         (swap("[4, 3]", "[4, -3]"), "line 19: `faceVertexCounts` has -3, which is not a whole"),
@@ -279,10 +289,39 @@ fn faulty_files_are_told_the_line_and_what_to_do() {
         (swap("3, 2, 4,", "3, 2, 5,"), "line 20: `faceVertexIndices` asks for vertex 5, but there"),
         (swap("(0, 0, 0), (1", "(0, 0), (1"), "line 21: `points` must have tuples of 3 numbers"),
         (swap("edgeOnly", "edges"), "line 24: `interpolateBoundary` is `edges`, but can be none, "),
+        (swap("note = '''", "note = '"), "line 44: the string has no end"),
+        (swap("'''\n", "\n"), "line 44: the string has no end: close it by '''"),
+        (swap("        \"note\"'''\n    }\n}\n", "'''"), "line 45: a property, a prim or `}` is"),
+        (swap("asset texture", "asset $"), "line 44: `$` has no meaning here"),
+        (swap("1.5e0", "1.5ee"), "line 21: `1.5ee` is not a number: correct it"),
+        (swap("[4, 3]", &"(".repeat(500)), "line 19: there are more than 100 brackets in each"),
+    ] {
+        let found = error(&text);
+        assert!(found.starts_with(expected), "{expected}\n{found}");
+    }
+    let latin = [b"#usda 1.0\n# caf", &b"\xe9\n"[..]].concat();
+    let fault = usd::read(&latin, None).unwrap_err().to_string();
+    assert_eq!(fault, "line 2: the text is not UTF-8: convert it");
+}
+
+/// The house with one thing in it replaced.
+fn swap(from: &str, to: &str) -> String {
+    assert!(HOUSE.contains(from), "{from}");
+    HOUSE.replacen(from, to, 1)
+}
+
+#[test]
+fn faulty_tags_and_primvars_are_told_the_line_and_what_to_do() {
+    for (text, expected) in [
         (swap("[3, 2]", "[3, 1]"), "line 27: `creaseLengths` must be numbers from 2 that add up"),
         (swap("[2.5, inf]", "[2.5]"), "line 28: `creaseSharpnesses` must have a number for each"),
         (swap("[2.5, inf]", "[2.5, nan]"), "line 28: `creaseSharpnesses` has NaN"),
         (swap("[0, 1, 2, 2, 3]", "[0, 1, 2, 2, 9]"), "line 26: `creaseIndices` asks for vertex 9"),
+        (
+            swap("[2.5, inf]", "[2.5, -1]"),
+            "line 28: `creaseSharpnesses` has -1, but sharpness is 0 (smooth) or more: correct it",
+        ),
+        (swap("[10]", "[-0.5]"), "line 30: `cornerSharpnesses` has -0.5, but sharpness is 0"),
         (swap("[10]", "[10, 1]"), "line 30: `cornerSharpnesses` must have a number for each of"),
         (swap("cornerSharpnesses", "sharpnesses"), "line 17: the mesh has no `cornerSharpnesses`"),
         (swap("Indices = [4]", "Indices = [5]"), "line 29: `cornerIndices` asks for vertex 5"),
@@ -299,19 +338,10 @@ fn faulty_files_are_told_the_line_and_what_to_do() {
             swap("[1, 2, 3, 4, 5]", "[1, 2, 3, 4]"),
             "line 41: `primvars:heat` has 4 values for 5 ver",
         ),
-        (swap("note = '''", "note = '"), "line 44: the string has no end"),
-        (swap("'''\n", "\n"), "line 44: the string has no end: close it by '''"),
-        (swap("        \"note\"'''\n    }\n}\n", "'''"), "line 45: a property, a prim or `}` is"),
-        (swap("asset texture", "asset $"), "line 44: `$` has no meaning here"),
-        (swap("1.5e0", "1.5ee"), "line 21: `1.5ee` is not a number: correct it"),
-        (swap("[4, 3]", &"(".repeat(500)), "line 19: there are more than 100 brackets in each"),
     ] {
         let found = error(&text);
         assert!(found.starts_with(expected), "{expected}\n{found}");
     }
-    let latin = [b"#usda 1.0\n# caf", &b"\xe9\n"[..]].concat();
-    let fault = usd::read(&latin, None).unwrap_err().to_string();
-    assert_eq!(fault, "line 2: the text is not UTF-8: convert it");
 }
 
 #[test]
@@ -342,6 +372,37 @@ fn transforms_that_cannot_be_applied_are_refused() {
     ] {
         let found = with(ops);
         assert!(found.contains(expected), "{found}");
+    }
+}
+
+#[test]
+fn points_are_named_by_number_and_line() {
+    let text = "#usda 1.0\ndef Mesh \"Cage\" {\n    point3f[] points = [(0, 0, 0),\n\
+                (1, 0, 0), (0,\n1, inf)]\nint[] faceVertexCounts = [3]\n\
+                int[] faceVertexIndices = [0, 1, 2]\n}\n";
+    let loaded = evenlight::io::load::Loaded::from(read(text));
+    let found = loaded.check().unwrap_err().to_string();
+    assert!(found.starts_with("vertex 2 (line 4) is at (0, 1, inf): give it"), "{found}");
+}
+
+/// Texture coordinates stay what they are said to be.
+#[test]
+fn sets_of_texture_coordinates_keep_their_role() {
+    for (name, interpolation, kind) in [
+        ("uv2", "vertex", "texCoord2f"),
+        ("UVMap_001", "vertex", "texCoord2f"),
+        ("lightmap", "faceVarying", "texCoord2f"),
+        ("stretch", "vertex", "float2"),
+    ] {
+        let values = if interpolation == "vertex" { 5 } else { 7 };
+        let values: Vec<String> = (0..values).map(|k| format!("({k}, 0)")).collect();
+        let line = format!(
+            "{kind}[] primvars:{name} = [{}] (interpolation = \"{interpolation}\")\n",
+            values.join(", ")
+        );
+        let text =
+            written(&read(&HOUSE.replace("        color3f", &format!("{line}color3f"))).mesh);
+        assert!(text.contains(&format!("{kind}[] primvars:{name} = ")), "{text}");
     }
 }
 

@@ -11,9 +11,10 @@
 
 use std::fmt;
 
-use super::obj::{self, UnknownTag};
+use super::kind::Kind;
+use super::obj::{self, Skipped, UnknownTag};
 use super::{ply, usd};
-use crate::mesh::{Cage, CheckError, FaceId, LibraryNumbers, Mesh, Names, VertexId, Warning};
+use crate::mesh::{Cage, CheckError, FaceId, Mesh, Names, VertexId, Warning};
 
 /// The kinds of files that hold cages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +28,27 @@ pub enum Format {
 }
 
 impl Format {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Obj, Self::Ply, Self::Usda];
+
+    /// Its name, as in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Usda => "USD",
+        }
+    }
+
+    /// How the names of such files end.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Obj => ".obj",
+            Self::Ply => ".ply",
+            Self::Usda => ".usda",
+        }
+    }
+
     /// The kind of file that ends in `.extension`, in small or capital letters.
     pub fn from_extension(extension: &str) -> Option<Self> {
         match extension.to_ascii_lowercase().as_str() {
@@ -40,10 +62,9 @@ impl Format {
 
     /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.
     pub fn of_content(bytes: &[u8]) -> Self {
-        match bytes {
-            [b'p', b'l', b'y', b'\n' | b'\r' | b' ', ..] => Self::Ply,
-            _ if bytes.starts_with(b"#usda") || bytes.starts_with(b"PXR-USDC") => Self::Usda,
-            _ => Self::Obj,
+        match Kind::of(bytes) {
+            Some(Kind::Cage(format)) => format,
+            Some(Kind::Other(_)) | None => Self::Obj,
         }
     }
 
@@ -105,22 +126,46 @@ impl Loaded {
 pub enum Naming {
     /// By their numbers from 1, and by lines.
     Lines(obj::Source),
-    /// By their numbers from 0.
-    FromZero,
+    /// By their numbers from 0, and by lines.
+    LinesFromZero(Lines),
+}
+
+/// The lines, from 1, on which vertices and faces begin in a file that counts them from 0; empty
+/// where they are not known, as in binary files.
+///
+/// As [`Names`] it calls a vertex "5 (line 17)": its number, from 0, and its line.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Lines {
+    pub(super) vertices: Vec<u32>,
+    pub(super) faces: Vec<u32>,
+}
+
+impl Names for Lines {
+    fn vertex(&self, vertex: VertexId) -> String {
+        numbered(vertex.0, self.vertices.get(vertex.index()))
+    }
+
+    fn face(&self, face: FaceId) -> String {
+        numbered(face.0, self.faces.get(face.index()))
+    }
+}
+
+fn numbered(id: u32, line: Option<&u32>) -> String {
+    line.map_or_else(|| id.to_string(), |line| format!("{id} (line {line})"))
 }
 
 impl Names for Naming {
     fn vertex(&self, vertex: VertexId) -> String {
         match self {
             Self::Lines(source) => source.vertex(vertex),
-            Self::FromZero => LibraryNumbers.vertex(vertex),
+            Self::LinesFromZero(source) => source.vertex(vertex),
         }
     }
 
     fn face(&self, face: FaceId) -> String {
         match self {
             Self::Lines(source) => source.face(face),
-            Self::FromZero => LibraryNumbers.face(face),
+            Self::LinesFromZero(source) => source.face(face),
         }
     }
 }
@@ -130,6 +175,8 @@ impl Names for Naming {
 pub enum Notice {
     /// The lines with a tag that is not known.
     UnknownTag(UnknownTag),
+    /// The lines of groups, materials, normals and the like.
+    Skipped(Skipped),
     /// The vertices in no face.
     UnusedVertices {
         /// How many there are.
@@ -155,6 +202,7 @@ impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownTag(tag) => tag.fmt(f),
+            Self::Skipped(skipped) => skipped.fmt(f),
             Self::UnusedVertices { message, .. } | Self::Remark(message) => f.write_str(message),
         }
     }
@@ -219,13 +267,17 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.naming {
             Naming::Lines(_) => f.write_str(&self.error.describe(&self.naming))?,
-            Naming::FromZero => self.error.fmt(f)?,
+            Naming::LinesFromZero(_) => {
+                let faults = self.error.describe(&self.naming);
+                write!(f, "{faults} (vertices and faces are counted from 0)")?;
+            }
         }
         // Most likely the cause, when what was read is not a mesh: the file is of another kind.
-        match &self.notices[..] {
+        let is_cause = |notice: &&Notice| !matches!(notice, Notice::Skipped(_));
+        match self.notices.iter().filter(is_cause).collect::<Vec<_>>()[..] {
             [] => Ok(()),
             [notice] => write!(f, "\nnote: {notice}"),
-            [notice, others @ ..] => write!(f, "\nnote: {notice}, and {} more", others.len()),
+            [notice, ref others @ ..] => write!(f, "\nnote: {notice}, and {} more", others.len()),
         }
     }
 }

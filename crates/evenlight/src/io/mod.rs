@@ -4,6 +4,7 @@ pub mod bv;
 mod digits;
 mod excerpt;
 pub mod glb;
+mod kind;
 pub mod load;
 pub mod obj;
 pub mod obj_out;

@@ -1,13 +1,13 @@
 //! Wavefront OBJ: cages in, meshes out.
 //!
 //! ```text
-//! v x y z             a vertex; of six numbers the last three are its colour, any other further
-//!                     numbers (w) must be numbers and are ignored
+//! v x y z [1]         a vertex; another weight than 1 is refused
+//! v x y z r g b       a vertex with its colour; any other further numbers are read over
 //! vt u [v [w]]        a texture coordinate; what is missing is 0
 //! vn                  counted only
 //! f c1 c2 ...         a face of any size; a corner is v, v/vt, v//vn or v/vt/vn
 //! t NAME a/b/c ...    a tag with a whole numbers, b numbers and c words; see below
-//! o g s usemtl mtllib   ignored
+//! o g s usemtl mtllib   read over
 //! # ...           a comment up to the end of the line
 //! ```
 //!
@@ -16,8 +16,8 @@
 //! a `/` may be empty.
 //!
 //! A line ends with LF, CRLF or CR; `\` at its end joins the next one to it, except in a
-//! comment. Blanks may stand anywhere between words, also before the first. Every other tag is
-//! counted and reported once. Only words that matter are looked at: the bytes need not be
+//! comment. Blanks may stand anywhere between words, also before the first. What is read over is
+//! reported in one sentence, every other tag is counted and reported once. Only words that matter are looked at: the bytes need not be
 //! UTF-8, and a byte order mark is skipped.
 //!
 //! Tags are those of the shapes that OpenSubdiv is tested with; they count from 0:
@@ -51,11 +51,13 @@ use crate::mesh::{Cage, FaceId, Mesh, Names, Tags, VertexId};
 mod channels;
 mod fault;
 mod parse;
+mod skipped;
 mod tag;
 mod words;
 mod write;
 
 pub use fault::{Channel, Element, LineFault, ReadError, Reason};
+pub use skipped::Skipped;
 
 /// What an OBJ file says.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +67,8 @@ pub struct Obj {
     pub mesh: Mesh,
     /// Where they stand.
     pub source: Source,
+    /// The lines that were read over, which say more than a cage can hold.
+    pub skipped: Option<Skipped>,
     /// The tags that were not understood, in the order of their first lines.
     pub unknown_tags: Vec<UnknownTag>,
     /// What was completed or left out, in sentences.
@@ -73,9 +77,10 @@ pub struct Obj {
 
 impl From<Obj> for Loaded {
     fn from(obj: Obj) -> Self {
-        let Obj { mesh, source, unknown_tags, remarks } = obj;
+        let Obj { mesh, source, skipped, unknown_tags, remarks } = obj;
+        let skipped = skipped.into_iter().map(Notice::Skipped);
         let tags = unknown_tags.into_iter().map(Notice::UnknownTag);
-        let notices = tags.chain(remarks.into_iter().map(Notice::Remark)).collect();
+        let notices = skipped.chain(tags).chain(remarks.into_iter().map(Notice::Remark)).collect();
         Self { mesh, naming: Naming::Lines(source), notices }
     }
 }

@@ -32,7 +32,7 @@
 use std::fmt;
 use std::io::Write;
 
-use super::load::{Loaded, Naming, Notice};
+use super::load::{Lines, Loaded, Naming, Notice};
 use crate::mesh::Mesh;
 
 mod body;
@@ -49,14 +49,16 @@ pub use header::Encoding;
 pub struct Ply {
     /// Its vertices and faces in order, and its channels.
     pub mesh: Mesh,
+    /// Where its vertices and faces stand, in text.
+    pub lines: Lines,
     /// What was skipped or completed, in sentences.
     pub remarks: Vec<String>,
 }
 
 impl From<Ply> for Loaded {
-    fn from(Ply { mesh, remarks }: Ply) -> Self {
+    fn from(Ply { mesh, lines, remarks }: Ply) -> Self {
         let notices = remarks.into_iter().map(Notice::Remark).collect();
-        Self { mesh, naming: Naming::FromZero, notices }
+        Self { mesh, naming: Naming::LinesFromZero(lines), notices }
     }
 }
 

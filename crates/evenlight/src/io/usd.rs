@@ -34,7 +34,7 @@
 use std::fmt;
 use std::io::Write;
 
-use super::load::{Loaded, Naming, Notice};
+use super::load::{Lines, Loaded, Naming, Notice};
 use crate::mesh::Mesh;
 
 mod attributes;
@@ -53,14 +53,16 @@ pub struct Usd {
     pub path: String,
     /// The mesh, in the coordinates of the stage.
     pub mesh: Mesh,
+    /// Where its points stand.
+    pub lines: Lines,
     /// What was skipped or changed, in sentences.
     pub remarks: Vec<String>,
 }
 
 impl From<Usd> for Loaded {
-    fn from(Usd { mesh, remarks, .. }: Usd) -> Self {
+    fn from(Usd { mesh, lines, remarks, .. }: Usd) -> Self {
         let notices = remarks.into_iter().map(Notice::Remark).collect();
-        Self { mesh, naming: Naming::FromZero, notices }
+        Self { mesh, naming: Naming::LinesFromZero(lines), notices }
     }
 }
 

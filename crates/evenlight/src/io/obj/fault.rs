@@ -106,6 +106,18 @@ pub enum Reason {
         /// How many there must be.
         needed: usize,
     },
+    /// A vertex has four numbers, of which the last is not 1.
+    #[error("the weight `{text}` is not 1, but rational points are not supported: delete it")]
+    Weight {
+        /// The weight.
+        text: String,
+    },
+    /// The whole file is of another kind.
+    #[error("the file is read as OBJ, but {what}")]
+    OtherKind {
+        /// What it is and what to do.
+        what: String,
+    },
     /// A corner of a face has not the form of one.
     #[error("`{text}` is not a corner: correct it, as in 1, 1/2, 1//3 or 1/2/3")]
     NotACorner {
@@ -130,8 +142,8 @@ pub enum Reason {
         text: String,
         /// What the number is of.
         channel: Channel,
-        /// The number; the largest of 64 bits if it is larger.
-        index: i64,
+        /// The number as it is written.
+        index: String,
         /// How many there are.
         count: usize,
     },
@@ -145,8 +157,8 @@ pub enum Reason {
         text: String,
         /// What the number is of.
         channel: Channel,
-        /// The number, which is negative.
-        index: i64,
+        /// The number as it is written, which is negative.
+        index: String,
         /// How many come before it.
         count: usize,
     },

@@ -4,9 +4,11 @@ use std::collections::HashMap;
 
 use super::channels::Channels;
 use super::fault::{Channel, Element, Faults, LineFault, ReadError, Reason, excerpt};
+use super::skipped::Skipped;
 use super::tag::{self, Outcome};
 use super::words::Words;
 use super::{Obj, Source, UnknownTag};
+use crate::io::kind::Kind;
 use crate::mesh::{Faces, Mesh, Tags, VertexId};
 use crate::point::Point;
 
@@ -29,6 +31,10 @@ impl Default for Limits {
 
 /// [`super::read`] under `limits`, which tests can reach.
 pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Obj, ReadError> {
+    if let Some(what) = Kind::not_obj(bytes) {
+        let fault = LineFault { line: 1, element: None, reason: Reason::OtherKind { what } };
+        return Err(ReadError { faults: vec![fault], num_more: 0 });
+    }
     let mut reader = Reader::new(bytes, limits);
     let complete = reader.read_lines();
     // What asked for later lines can only be judged if all lines were seen.
@@ -53,6 +59,7 @@ struct Reader<'a> {
     tags: Tags,
     source: Source,
     unknown: UnknownTags<'a>,
+    skipped: Option<Skipped>,
     /// The corners with a number that nothing had yet, to be looked at again at the end.
     forward: Vec<Forward>,
     faults: Faults,
@@ -82,6 +89,7 @@ impl<'a> Reader<'a> {
             tags: Tags::default(),
             source: Source::default(),
             unknown: UnknownTags::default(),
+            skipped: None,
             forward: Vec::new(),
             faults: Faults::default(),
             corners: Vec::new(),
@@ -126,8 +134,9 @@ impl<'a> Reader<'a> {
                 self.texture(tag).map_err(fault(Some(element)))?;
             }
             b"t" => self.tag(tag, line).map_err(fault(None))?,
-            b"vn" => self.num_normals += 1,
-            b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" => {}
+            _ if Skipped::count(&mut self.skipped, tag, line) => {
+                self.num_normals += usize::from(tag == b"vn");
+            }
             _ => self.unknown.count(tag, line),
         }
         Ok(())
@@ -141,9 +150,16 @@ impl<'a> Reader<'a> {
         self.positions.push([x, y, z]);
         self.source.vertex_lines.push(line);
         let numbers = numbers?;
-        if numbers.found == 6 {
-            numbers.refuse_non_finite()?;
-            self.channels.add_color(numbers.values);
+        match (numbers.found, numbers.values[3]) {
+            (3, _) | (4, 1.0) => {}
+            (4, weight) => {
+                return Err(Reason::Weight { text: excerpt(weight.to_string().as_bytes()) });
+            }
+            (6, _) => {
+                numbers.refuse_non_finite()?;
+                self.channels.add_color(numbers.values);
+            }
+            _ => drop(Skipped::count(&mut self.skipped, tag, line)),
         }
         Ok(())
     }
@@ -232,6 +248,7 @@ impl<'a> Reader<'a> {
             }
             if index.unsigned_abs() > count as u64 {
                 if index < 0 {
+                    let index = part(word, channel);
                     return Err(Reason::IndexBeforeFirst { text: text(), channel, index, count });
                 }
                 forward = true;
@@ -272,7 +289,8 @@ impl<'a> Reader<'a> {
         let word = Words::starting_at(self.bytes, at).next()?;
         let corner = corner(word)?;
         let mut missing = self.numbers(&corner).filter(|&(_, i, count)| i > count as i64);
-        let (channel, index, count) = missing.next()?;
+        let (channel, _, count) = missing.next()?;
+        let index = part(word, channel);
         Some(Reason::IndexTooLarge { text: excerpt(word), channel, index, count })
     }
 
@@ -294,7 +312,8 @@ impl<'a> Reader<'a> {
         let num_corners = self.faces.all_corners().len();
         let (primvars, remarks) = self.channels.finish(self.positions.len(), num_corners);
         let mesh = Mesh { positions: self.positions, faces: self.faces, tags: self.tags, primvars };
-        Obj { mesh, source: self.source, unknown_tags: self.unknown.list, remarks }
+        let Self { source, skipped, unknown, .. } = self;
+        Obj { mesh, source, skipped, unknown_tags: unknown.list, remarks }
     }
 }
 
@@ -372,6 +391,16 @@ fn corner(word: &[u8]) -> Option<Corner> {
         }
     }
     corner[0].is_some().then_some(corner)
+}
+
+/// The number of `channel` in a corner, as it is written.
+fn part(corner: &[u8], channel: Channel) -> String {
+    let place = match channel {
+        Channel::Vertex => 0,
+        Channel::Texture => 1,
+        Channel::Normal => 2,
+    };
+    excerpt(corner.split(|&b| b == b'/').nth(place).unwrap_or_default())
 }
 
 /// A whole number; the nearest of 64 bits if it is too large.

@@ -97,7 +97,7 @@ impl<'a> Line<'a> {
             return Err(self.counts("pairs of vertices, and one number or one for each pair"));
         }
         let each = edges.into_iter().zip(sharpness.iter().cycle());
-        Ok(each.map(|(edge, &s)| Crease { edge, sharpness: s.max(0.0) }).collect())
+        each.map(|(edge, &s)| Ok(Crease { edge, sharpness: self.sharpness(s)? })).collect()
     }
 
     fn corners(&self) -> Result<Vec<Corner>, Reason> {
@@ -106,7 +106,16 @@ impl<'a> Line<'a> {
             return Err(self.counts("vertices, and one number or one for each vertex"));
         }
         let each = vertices.into_iter().zip(sharpness.iter().cycle());
-        Ok(each.map(|(vertex, &s)| Corner { vertex, sharpness: s.max(0.0) }).collect())
+        each.map(|(vertex, &s)| Ok(Corner { vertex, sharpness: self.sharpness(s)? })).collect()
+    }
+
+    /// A number from 0, without the sign of -0.
+    fn sharpness(&self, number: f64) -> Result<f64, Reason> {
+        if number < 0.0 {
+            let expected = "a sharpness from 0 (smooth) to 10 (sharp for ever)";
+            return Err(self.value(number.to_string().as_bytes(), expected));
+        }
+        Ok(number.abs())
     }
 
     fn holes(&self) -> Result<Vec<FaceId>, Reason> {

@@ -27,6 +27,15 @@ impl<'a> Body<'a> {
         self.place
     }
 
+    /// The line of the next value, in text.
+    pub fn next_line(&mut self) -> Option<u32> {
+        if self.encoding != Encoding::Ascii {
+            return None;
+        }
+        self.skip_blanks();
+        u32::try_from(self.line).ok()
+    }
+
     /// How many bytes are left; blanks at the end of text do not count.
     pub fn num_left(&mut self) -> usize {
         if self.encoding == Encoding::Ascii {

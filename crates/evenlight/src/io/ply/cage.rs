@@ -4,6 +4,7 @@ use super::body::Body;
 use super::channels::{self, CornerValues};
 use super::header::{Element, Header, word};
 use super::{Place, Ply, ReadError};
+use crate::io::load::Lines;
 use crate::mesh::{Faces, Mesh, VertexId};
 use crate::point::Point;
 
@@ -32,6 +33,7 @@ struct Reader<'a> {
     /// The values of the other properties of vertices, each for itself.
     columns: Vec<Vec<f64>>,
     faces: Faces,
+    lines: Lines,
     texcoords: CornerValues,
     remarks: Vec<String>,
 }
@@ -66,6 +68,7 @@ impl<'a> Reader<'a> {
             positions: Vec::new(),
             columns: vec![Vec::new(); vertices.properties.len()],
             faces: Faces::default(),
+            lines: Lines::default(),
             texcoords: CornerValues::default(),
             remarks: Vec::new(),
         })
@@ -92,6 +95,7 @@ impl<'a> Reader<'a> {
         item: &mut Item,
         body: &mut Body,
     ) -> Result<(), String> {
+        let line = body.next_line();
         for (property, values) in element.properties.iter().zip(&mut *item) {
             values.clear();
             let count = property.count.map_or(Ok(1.0), |scalar| body.next(scalar))?;
@@ -103,8 +107,12 @@ impl<'a> Reader<'a> {
             }
         }
         match faces {
-            Some(faces) => self.face(faces, item),
+            Some(faces) => {
+                self.lines.faces.extend(line);
+                self.face(faces, item)
+            }
             None if element.name == "vertex" => {
+                self.lines.vertices.extend(line);
                 self.vertex(item);
                 Ok(())
             }
@@ -168,7 +176,7 @@ impl<'a> Reader<'a> {
         channels::group(columns, &mut primvars, &mut self.remarks);
         let mesh =
             Mesh { positions: self.positions, faces: self.faces, primvars, ..Mesh::default() };
-        Ply { mesh, remarks: self.remarks }
+        Ply { mesh, lines: self.lines, remarks: self.remarks }
     }
 }
 

@@ -2,6 +2,8 @@
 
 use super::{Place, ReadError};
 use crate::io::excerpt::excerpt;
+use crate::io::kind::Kind;
+use crate::io::load::Format;
 
 /// How the values after the header are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,7 +119,10 @@ impl Header {
     pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
         let mut lines = Lines::new(bytes);
         if lines.next().map(<[u8]>::trim_ascii) != Some(b"ply") {
-            return Err(lines.fault("the file does not begin with the line `ply`"));
+            let advice = Kind::advice(bytes, Format::Ply);
+            return Err(
+                lines.fault(&format!("the file does not begin with the line `ply`: {advice}"))
+            );
         }
         let mut encoding = None;
         let mut elements = Vec::new();
@@ -132,7 +137,11 @@ impl Header {
                 }
                 ["element", name, count] => add_element(&mut elements, name, count, lines.number),
                 ["property", ref words @ ..] => add_property(&mut elements, words),
-                _ => Err(format!("`{}` is no line of a header", excerpt(line))),
+                _ => Err(format!(
+                    "`{}` is no line of a header: they are written as in `format ascii 1.0`, \
+                     `element vertex 8`, `property float x`, `comment ...`, `end_header`",
+                    excerpt(line)
+                )),
             }
             .map_err(|message| lines.fault(&message))?;
         }
@@ -195,7 +204,10 @@ fn read_format(name: &str, version: &str) -> Result<Encoding, String> {
     let all = [Encoding::Ascii, Encoding::LittleEndian, Encoding::BigEndian];
     match all.into_iter().find(|encoding| encoding.name() == name) {
         Some(encoding) if version == "1.0" => Ok(encoding),
-        Some(_) => Err(format!("version {} of PLY is not known, only 1.0", word(version))),
+        Some(_) => Err(format!(
+            "version {} of PLY is not known: write the file as `format {name} 1.0`",
+            word(version)
+        )),
         None => Err(format!(
             "`{}` is no format: it can be ascii, binary_little_endian or binary_big_endian",
             word(name)
@@ -212,7 +224,11 @@ fn add_element(
     if elements.iter().any(|e| e.name == name) {
         return Err(format!("there is another element `{}`: join them", word(name)));
     }
-    let count = count.parse().map_err(|_| format!("`{}` is no number of items", word(count)))?;
+    let count = count.parse().map_err(|_| {
+        let name = word(name);
+        let count = word(count);
+        format!("`{count}` is no number of items: write how many follow, as in `element {name} 8`")
+    })?;
     elements.push(Element { name: name.to_owned(), count, properties: Vec::new(), line });
     Ok(())
 }

@@ -21,6 +21,14 @@ pub(super) struct Found<'a, T: ?Sized> {
 pub(super) type Ids<'a> = (Vec<u32>, Found<'a, [f64]>);
 
 impl<T: ?Sized> Found<'_, T> {
+    /// The line of every tuple of a list; empty for other values.
+    pub fn lines(&self) -> &[u32] {
+        match &self.attribute.value {
+            Value::Numbers { lines, .. } => lines,
+            _ => &[],
+        }
+    }
+
     /// A fault of the attribute; `what` goes on after its name.
     pub fn fault(&self, what: &str) -> ReadError {
         fault(self.attribute, what)
@@ -56,7 +64,7 @@ impl<'a> Attributes<'a> {
         let Some(attribute) = self.find(name) else { return Ok(None) };
         match &attribute.value {
             // An empty list has no width of its own.
-            Value::Numbers { values, width: found } if *found == width || values.is_empty() => {
+            Value::Numbers { values, width: found, .. } if *found == width || values.is_empty() => {
                 Ok(Some(Found { value: values, attribute }))
             }
             _ if width == 1 => Err(fault(attribute, "must be a list of numbers")),

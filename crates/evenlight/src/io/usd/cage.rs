@@ -8,6 +8,7 @@ use super::scene::Found;
 use super::transform::{self, Affine};
 use super::{ReadError, Usd};
 use crate::io::excerpt::excerpt;
+use crate::io::load::Lines;
 use crate::mesh::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceId, FaceVaryingRule, Faces, Interpolation,
     Mesh, Primvar, VertexId,
@@ -47,6 +48,7 @@ pub(super) fn read(found: &Found) -> Result<Usd, ReadError> {
         attributes: Attributes::new(found.prim()),
         line: found.prim().line,
         mesh: Mesh::default(),
+        lines: Lines::default(),
         remarks: found.remarks().collect(),
     };
     let to_stage = transform::to_stage(&found.chain)?;
@@ -58,12 +60,12 @@ pub(super) fn read(found: &Found) -> Result<Usd, ReadError> {
     reader.creases()?;
     reader.corners_and_holes()?;
     reader.primvars(found.prim().attributes.as_slice(), is_left_handed != is_mirrored)?;
-    let Reader { attributes, mesh, mut remarks, .. } = reader;
+    let Reader { attributes, mesh, lines, mut remarks, .. } = reader;
     let animated = |name: &String| {
         format!("`{}` changes over time: its first value is taken", excerpt(name.as_bytes()))
     };
     remarks.extend(attributes.animated.iter().map(animated));
-    Ok(Usd { path: found.path.clone(), mesh, remarks })
+    Ok(Usd { path: found.path.clone(), mesh, lines, remarks })
 }
 
 struct Reader<'a> {
@@ -71,6 +73,7 @@ struct Reader<'a> {
     /// The line of the prim.
     line: usize,
     mesh: Mesh,
+    lines: Lines,
     remarks: Vec<String>,
 }
 
@@ -82,6 +85,7 @@ impl Reader<'_> {
     fn points(&mut self, to_stage: Option<Affine>) -> Result<(), ReadError> {
         let points = self.attributes.numbers("points", 3)?;
         let points = points.ok_or_else(|| self.missing("points"))?;
+        self.lines.vertices = points.lines().to_vec();
         let positions = points.value.chunks_exact(3).map(|p| [p[0], p[1], p[2]]);
         self.mesh.positions = match to_stage {
             Some(map) => positions.map(|p| map.apply(p)).collect(),
@@ -257,7 +261,7 @@ impl Reader<'_> {
         let Some(&(_, interpolation)) = known else {
             return skip("only vertex, varying and faceVarying ones are kept");
         };
-        let Value::Numbers { values, width } = &attribute.value else {
+        let Value::Numbers { values, width, .. } = &attribute.value else {
             return skip("it has no numbers");
         };
         if *width > 4 {
@@ -351,7 +355,11 @@ fn check_indices(indices: &[u32], num_values: usize) -> Result<(), String> {
 }
 
 fn check_sharpness(found: &super::attributes::Found<[f64]>) -> Result<(), ReadError> {
-    if found.value.iter().any(|x| x.is_nan()) { Err(found.fault("has NaN")) } else { Ok(()) }
+    match found.value.iter().find(|x| x.is_nan() || **x < 0.0) {
+        Some(x) if x.is_nan() => Err(found.fault("has NaN")),
+        Some(x) => Err(found.fault(&format!("has {x}, but sharpness is 0 (smooth) or more"))),
+        None => Ok(()),
+    }
 }
 
 /// Makes equal values of a vertex one.

@@ -16,6 +16,8 @@
 use super::ReadError;
 use super::lexer::{Lexer, Token};
 use crate::io::excerpt::excerpt;
+use crate::io::kind::Kind;
+use crate::io::load::Format;
 
 /// What is at the top of a file.
 #[derive(Debug)]
@@ -58,8 +60,8 @@ pub(super) struct Attribute {
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
-    /// Numbers in tuples of `width`, or single ones.
-    Numbers { values: Vec<f64>, width: usize },
+    /// Numbers in tuples of `width`, each of a list with its line, or single ones.
+    Numbers { values: Vec<f64>, width: usize, lines: Vec<u32> },
     /// Strings or tokens.
     Texts(Vec<String>),
     /// `None`, or nothing.
@@ -84,7 +86,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Layer, ReadError> {
         fault(line, "the text is not UTF-8: convert it")
     })?;
     if !text.starts_with("#usda 1.") {
-        return Err(fault(1, "the file does not begin with `#usda 1.0`"));
+        let advice = Kind::advice(bytes, Format::Usda);
+        return Err(fault(1, &format!("the file does not begin with `#usda 1.0`: {advice}")));
     }
     Parser::new(text)?.layer()
 }
@@ -310,7 +313,8 @@ impl<'a> Parser<'a> {
             Token::Sign('(') => {
                 let mut values = Vec::new();
                 let width = self.tuple(&mut values)?;
-                Ok(width.map_or(Value::Other, |width| Value::Numbers { values, width }))
+                let lines = Vec::new();
+                Ok(width.map_or(Value::Other, |width| Value::Numbers { values, width, lines }))
             }
             Token::Sign('{') => self.nested(Self::dictionary),
             Token::Name("None") => self.advance().map(|_| Value::None),
@@ -329,6 +333,7 @@ impl<'a> Parser<'a> {
         while !self.eat(']')? {
             match self.next {
                 Token::Sign('(') => {
+                    list.lines.push(u32::try_from(self.line).unwrap_or(u32::MAX));
                     let width = self.tuple(&mut list.numbers)?;
                     list.add_width(width);
                 }
@@ -338,8 +343,8 @@ impl<'a> Parser<'a> {
                 }
                 _ => self.single(&mut list)?,
             }
-            if self.next != Token::Sign(']') {
-                self.expect(',')?;
+            if self.next != Token::Sign(']') && !self.eat(',')? {
+                return Err(self.unexpected("after a value of a list, `,` or `]`"));
             }
         }
         Ok(list.finish())
@@ -395,8 +400,8 @@ impl<'a> Parser<'a> {
                     (single.numbers.len() == 1).then_some(1)
                 };
                 count = count.zip(added).map(|(a, b)| a + b);
-                if parser.next != Token::Sign(')') {
-                    parser.expect(',')?;
+                if parser.next != Token::Sign(')') && !parser.eat(',')? {
+                    return Err(parser.unexpected("after a number of a tuple, `,` or `)`"));
                 }
             }
             Ok(count)
@@ -451,6 +456,8 @@ const COMPOSITION: [&str; 5] = ["references", "payload", "inherits", "specialize
 struct Collected {
     numbers: Vec<f64>,
     texts: Vec<String>,
+    /// The line of every tuple.
+    lines: Vec<u32>,
     /// The numbers in every tuple.
     width: Option<usize>,
     is_other: bool,
@@ -472,7 +479,10 @@ impl Collected {
             _ if self.is_other => Value::Other,
             (false, false) => Value::Other,
             (true, false) => Value::Texts(self.texts),
-            _ => Value::Numbers { values: self.numbers, width: self.width.unwrap_or(1) },
+            _ => {
+                let Self { numbers: values, lines, width, .. } = self;
+                Value::Numbers { values, width: width.unwrap_or(1), lines }
+            }
         }
     }
 }

@@ -145,12 +145,28 @@ fn type_of(primvar: &Primvar) -> &'static str {
     match (primvar.name.as_str(), primvar.width) {
         ("color", 3) => "color3f",
         ("normals", 3) => "normal3f",
-        ("st" | "uv" | "UVMap", 2) => "texCoord2f",
+        _ if primvar.is_uv_set() && is_texture(primvar) => {
+            if primvar.width == 2 {
+                "texCoord2f"
+            } else {
+                "texCoord3f"
+            }
+        }
         (_, 1) => "float",
         (_, 2) => "float2",
         (_, 3) => "float3",
         _ => "float4",
     }
+}
+
+/// Whether a set of texture coordinates is said to be one: it has values of corners, or a name of the
+/// usual kinds, as in `st`, `uv2`, `UVMap`.
+fn is_texture(primvar: &Primvar) -> bool {
+    let name = primvar.name.to_ascii_lowercase();
+    let rest = name.strip_prefix("st").or_else(|| name.strip_prefix("uv"));
+    let is_number = |rest: &str| rest.chars().all(|c| c.is_ascii_digit() || c == '_');
+    let is_usual = rest.is_some_and(|rest| is_number(rest.strip_prefix("map").unwrap_or(rest)));
+    primvar.interpolation == Interpolation::FaceVarying || is_usual
 }
 
 fn write_token(name: &str, value: &str, out: &mut impl Write) -> Result<()> {
