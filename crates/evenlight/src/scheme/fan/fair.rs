@@ -34,7 +34,8 @@ use net::{Net, SPLINE_NODES};
 use regulator::Regulator;
 
 /// The most faces between two sharp edges for which there are fair rules (`CreaseRings::Fair`): with
-/// more, sectors are slivers and the rings no fairer than Catmull-Clark's.
+/// more, sectors are slivers. From eight on the outer rings have more energy than Catmull-Clark's, the
+/// inner ones far less (chapter 11).
 pub const MAX_FAIR_FACES: usize = 12;
 
 /// What the rings of a fair fan are made with.
