@@ -4,9 +4,9 @@
 //! derivatives and is in the coordinates of the hole; so holes in front of the first ring are no
 //! special case.
 
-use super::dense::Matrix;
 use super::sector::LAYERS;
 use super::spline::Space;
+use crate::dense::Matrix;
 use crate::point::{Vector, add_scaled};
 
 /// How border data follow from the patches of a sector of a ring.

@@ -14,11 +14,11 @@
 //!   * * x x x r r
 //! ```
 
-use super::dense::Matrix;
 use super::plane;
 use super::sector::{Complex, Sector, product};
 use super::spline::{Space, restriction};
 use crate::angle::{cosine, sine};
+use crate::dense::Matrix;
 use crate::scheme::{guide_monomials, sampled_guide};
 
 /// One bi-6 patch per sector.

@@ -36,7 +36,6 @@ mod rules;
 mod sector;
 mod spline;
 
-use crate::dense;
 use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::rings::{Rings, ValenceRules};

@@ -59,8 +59,10 @@ pub(crate) struct PlainCap {
     degree: usize,
     lines: Lines,
     border: Border,
-    /// Where the lines leave the centre, if there is a tangent plane.
-    tangents: Option<Tangents>,
+    /// Whether there is a tangent plane, in which the lines leave the centre in equal angles.
+    has_plane: bool,
+    /// What the tangents of lines follow from, if they are not given.
+    directions: Option<Directions>,
 }
 
 /// The lines of a fan of sectors: line s is the first of sector s.
@@ -75,11 +77,7 @@ pub(crate) struct Lines {
 
 /// The directions of the limit tangent plane, the first along the crease if there is one, as rows
 /// on a net with its vertex, and how much of cos(s theta) and sin(s theta) is in each.
-#[derive(Clone, Debug)]
-struct Tangents {
-    theta: f64,
-    directions: [(Row, [f64; 2]); 2],
-}
+type Directions = [(Row, [f64; 2]); 2];
 
 /// The bi-3 patch of a sector, the coefficients along line s+1 fastest.
 pub(super) type Bicubic = [Vector; 16];
@@ -87,25 +85,23 @@ pub(super) type Bicubic = [Vector; 16];
 impl PlainCap {
     /// Bi-3 if that is asked for, else bi-4.
     pub(super) fn new(rules: &ValenceRules, kind: CapKind) -> Self {
-        let lines = Lines::of(rules);
-        let border = Border::new(3, &domains(rules.rules()), Space::polynomials(3));
-        let tangents = rules.fan_limit().and_then(|limit| {
-            let directions = limit.tangent_rows()?.each_ref().map(|row| {
-                let ends = line_ends_of_eigenvector(row, rules.rules(), limit, &border, lines);
-                (row.clone(), lines.waves(&ends))
-            });
-            Some(Tangents { theta: lines.angle(), directions })
+        let mut cap = Self::inside(rules, kind);
+        cap.directions = rules.fan_limit().and_then(|limit| {
+            Some(limit.tangent_rows()?.each_ref().map(|row| {
+                let rules = rules.rules();
+                let ends = line_ends_of_eigenvector(row, rules, limit, &cap.border, cap.lines);
+                (row.clone(), cap.lines.waves(&ends))
+            }))
         });
-        let degree = if kind == CapKind::Bi3 { 3 } else { 4 };
-        Self { degree, lines, border, tangents }
+        cap.has_plane = cap.directions.is_some();
+        cap
     }
 
-    /// Inside fair rings beside a crease, which find the tangents themselves.
+    /// Inside fair rings beside a crease, which have a tangent plane and find the tangents themselves.
     pub(super) fn inside(rules: &ValenceRules, kind: CapKind) -> Self {
-        let lines = Lines::of(rules);
         let border = Border::new(3, &domains(rules.rules()), Space::polynomials(3));
-        let tangents = Some(Tangents { theta: lines.angle(), directions: Default::default() });
-        Self { degree: if kind == CapKind::Bi3 { 3 } else { 4 }, lines, border, tangents }
+        let degree = if kind == CapKind::Bi3 { 3 } else { 4 };
+        Self { degree, lines: Lines::of(rules), border, has_plane: true, directions: None }
     }
 
     pub(super) fn space(&self) -> Space {
@@ -150,12 +146,12 @@ impl PlainCap {
         let mut found: Vec<Vector> =
             ends.enumerate().map(|(line, end)| end.tangent(lines.is_crease(line))).collect();
         let limit = rings.rules().fan_limit();
-        if let Some((tangents, limit)) = self.tangents.as_ref().zip(limit) {
+        if let Some((directions, limit)) = self.directions.as_ref().zip(limit) {
             let net = limit.with_vertex(&rings.net(count));
             let along_crease = found[0];
             for line in (0..lines.count()).filter(|&line| !lines.is_crease(line)) {
                 let crease = (!lines.is_closed).then_some(along_crease);
-                found[line] = tangents.at(line, &net, crease);
+                found[line] = lines.tangent(line, directions, &net, crease);
             }
         }
         found
@@ -194,48 +190,26 @@ impl PlainCap {
                 }
             }
         }
-        let by = if self.tangents.is_some() {
-            self.lines.chain(&twists)
-        } else {
-            self.lines.half_way(&twists)
-        };
+        let by =
+            if self.has_plane { self.lines.chain(&twists) } else { self.lines.half_way(&twists) };
         nets.iter_mut().zip(by).for_each(|(net, by)| add_scaled(&mut net[order + 1], 1.0, by));
     }
 
     /// The BB coefficients 1 and 2 of (1-u)^2 W(u) on a line, those of degree 3 or 4.
     fn sums(&self, line: usize, cubic: &Bicubic, tangents: &[Vector]) -> [Vector; 2] {
-        match &self.tangents {
-            Some(Tangents { theta, .. }) if self.degree == 4 => {
-                let slope = |k: usize| scale(3.0, sub(cubic[4 * k + 4], cubic[4 * k]));
-                let c = cosine(*theta);
-                [scale(c, slope(1)), scale(c / 3.0, slope(2))]
-            }
-            _ => {
-                let around = [self.lines.behind(line), self.lines.next(line)];
-                let [before, after] = around.map(|line| tangents[line]);
-                let w = add(before, after);
-                if self.degree == 3 {
-                    [scale(1.0 / 3.0, w), [0.0; 3]]
-                } else {
-                    [scale(1.0 / 2.0, w), scale(1.0 / 6.0, w)]
-                }
-            }
+        if self.has_plane && self.degree == 4 {
+            let slope = |k: usize| scale(3.0, sub(cubic[4 * k + 4], cubic[4 * k]));
+            let c = cosine(self.lines.angle());
+            return [scale(c, slope(1)), scale(c / 3.0, slope(2))];
         }
-    }
-}
-
-impl Tangents {
-    /// T of a line for a net with its vertex, the first direction being `crease` if that is known.
-    fn at(&self, line: usize, net: &[Vector], crease: Option<Vector>) -> Vector {
-        let angle = line as f64 * self.theta;
-        let (c, s) = (cosine(angle), sine(angle));
-        let [along, across] = self.directions.each_ref().map(|(row, [in_cos, in_sin])| {
-            let mut sum = [0.0; 3];
-            let weight = in_cos * c + in_sin * s;
-            row.iter().for_each(|&(k, w)| add_scaled(&mut sum, weight * w, net[k]));
-            sum
-        });
-        add(crease.map_or(along, |crease| scale(c, crease)), across)
+        let around = [self.lines.behind(line), self.lines.next(line)];
+        let [before, after] = around.map(|line| tangents[line]);
+        let w = add(before, after);
+        if self.degree == 3 {
+            [scale(1.0 / 3.0, w), [0.0; 3]]
+        } else {
+            [scale(1.0 / 2.0, w), scale(1.0 / 6.0, w)]
+        }
     }
 }
 
@@ -282,6 +256,25 @@ impl Lines {
     /// The angle between neighbouring lines where there is a tangent plane.
     pub(super) fn angle(self) -> f64 {
         (if self.is_closed { TAU } else { PI }) / self.sectors as f64
+    }
+
+    /// T of a line for a net with its vertex, the first direction being `crease` if that is known.
+    fn tangent(
+        self,
+        line: usize,
+        directions: &Directions,
+        net: &[Vector],
+        crease: Option<Vector>,
+    ) -> Vector {
+        let angle = line as f64 * self.angle();
+        let (c, s) = (cosine(angle), sine(angle));
+        let [along, across] = directions.each_ref().map(|(row, [in_cos, in_sin])| {
+            let mut sum = [0.0; 3];
+            let weight = in_cos * c + in_sin * s;
+            row.iter().for_each(|&(k, w)| add_scaled(&mut sum, weight * w, net[k]));
+            sum
+        });
+        add(crease.map_or(along, |crease| scale(c, crease)), across)
     }
 
     /// How much of cos(s theta) and of sin(s theta) is in values on the smooth lines; values that

@@ -10,9 +10,9 @@
 //! A surface x(u,v) that is a polynomial of zeta bends no less and no more than that: derivatives of
 //! x by zeta are what fairness is measured in.
 
-use super::dense::{Matrix, constrained_least_squares};
 use super::sector::{Complex, LAYERS, Sector};
 use super::spline::inverted;
+use crate::dense::{Matrix, constrained_least_squares};
 
 /// How strongly caps hold to tangency where it cannot be exact, against bending.
 pub(super) const TANGENCY: f64 = 1e3;

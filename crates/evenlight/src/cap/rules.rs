@@ -13,12 +13,12 @@
 //! from those sampled of g along the map of the plane. The solutions of all modes together are
 //! weights of the data of the sectors around.
 
-use super::dense::{Matrix, constrained_least_squares, triangle};
 use super::guide::{SEXTIC, Samples, mirrored_datum};
 use super::plane::{self, PlaneFunction};
 use super::sector::{Complex, Sector, product};
 use super::spline::Space;
 use crate::angle::{cosine, sine};
+use crate::dense::{Matrix, constrained_least_squares, triangle};
 
 /// How much the jump of second derivatives at the border counts against third derivatives inside.
 const MISMATCH: f64 = 10.0;

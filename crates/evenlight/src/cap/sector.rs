@@ -22,9 +22,9 @@
 //!   Im(e^(i phi) Y) = 0,   Re(e^(i phi) Y_v) = c (1-u)^2 Re(e^(i phi) Y_u)   on v = 0.
 //! ```
 
-use super::dense::Matrix;
 use super::spline::{Space, gauss, raising};
 use crate::angle::{cosine, sector_cosine, sine};
+use crate::dense::Matrix;
 
 /// A complex number.
 pub(super) type Complex = [f64; 2];

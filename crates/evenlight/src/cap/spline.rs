@@ -10,7 +10,7 @@
 //! At a joint at least two knots meet, so the first three and the last three coefficients are BB
 //! coefficients of the first and of the last piece.
 
-use super::dense::Matrix;
+use crate::dense::Matrix;
 use crate::patch::basis::{bernstein, binomial};
 
 /// A space of splines.
@@ -173,7 +173,7 @@ pub(super) fn inverted(a: &Matrix) -> Matrix {
     let n = a.num_rows();
     let mut unit = Matrix::zeros(n, n);
     (0..n).for_each(|k| unit[(k, k)] = 1.0);
-    super::dense::Qr::new(a.clone()).least_squares(unit)
+    crate::dense::Qr::new(a.clone()).least_squares(unit)
 }
 
 /// The points and weights of Gauss quadrature on [0,1] with seven points, exact to degree 13: the

@@ -245,4 +245,4 @@ const PUBLISHED_VALENCE: usize = 10;
 
 /// Catmull-Clark has rules for every valence; the limit keeps a face with a million corners from
 /// using up the memory.
-const MAX_CATMULL_CLARK_VALENCE: usize = 1024;
+pub(crate) const MAX_CATMULL_CLARK_VALENCE: usize = 1024;

@@ -11,7 +11,9 @@ use crate::mesh::{Cage, Fan, VertexId, cnet_vertices, fan_vertices};
 use crate::net::CNet;
 use crate::point::Point;
 use crate::rings::{Rings, ValenceRules};
-use crate::scheme::{Contraction, ContractionError, SchemeKind, Variant};
+use crate::scheme::{
+    Contraction, ContractionError, MAX_CATMULL_CLARK_VALENCE, SchemeKind, Variant,
+};
 
 /// Why no surface could be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -21,7 +23,7 @@ pub enum SurfaceError {
     Contraction(#[from] ContractionError),
     /// Not even Catmull-Clark has rules for the valence of these points.
     #[error(
-        "there are rules for valences up to {MAX_VALENCE}, but {}; \
+        "there are rules for valences up to {MAX_CATMULL_CLARK_VALENCE}, but {}; \
          split such a vertex or face into several of lower valence",
         list_places(points)
     )]
@@ -30,9 +32,6 @@ pub enum SurfaceError {
         points: Vec<(Place, usize)>,
     },
 }
-
-/// The highest valence of Catmull-Clark's rules.
-const MAX_VALENCE: usize = 1024;
 
 /// The points of an error message, at most eight of them.
 fn list_places(points: &[(Place, usize)]) -> String {
@@ -58,7 +57,7 @@ pub(super) fn rules_of_points(
     options: SurfaceOptions,
 ) -> Result<Vec<(PointRule, Arc<ValenceRules>)>, SurfaceError> {
     options.scheme.check_contraction(options.contraction)?;
-    let without = plan.points.iter().filter(|p| p.fan.faces > MAX_VALENCE);
+    let without = plan.points.iter().filter(|p| p.fan.faces > MAX_CATMULL_CLARK_VALENCE);
     let points: Vec<_> = without.map(|p| (p.place, p.valence)).collect();
     if !points.is_empty() {
         return Err(SurfaceError::NoRules { points });

@@ -276,11 +276,14 @@ impl TriangleMesh {
             let sides = sides.of_face(grid.face);
             self.quads.push(QuadTriangles { quad, segments: grid.segments as u32, first });
             let numbers: Vec<u32> = grid.nodes().map(|(i, j)| nodes.node(grid, i, j)).collect();
+            let has_two_faces = |(i, j)| nodes.has_two_faces(grid, i, j);
+            let is_pinned = grid.corners().into_iter().any(has_two_faces);
             for (i, j) in grid.cells() {
                 let corners = cell_corners(i, j).map(|(i, j)| numbers[i + j * (grid.segments + 1)]);
                 let points = corners.map(|v| self.positions[v as usize]);
-                let pinned = cell_corners(i, j).map(|(i, j)| nodes.has_two_faces(grid, i, j));
-                let diagonal = Diagonal::from_pinned(pinned)
+                let pinned = is_pinned.then(|| cell_corners(i, j).map(has_two_faces));
+                let diagonal = pinned
+                    .and_then(Diagonal::from_pinned)
                     .unwrap_or_else(|| Diagonal::choose(points, i, j, grid.segments));
                 self.triangles.extend(diagonal.cut(corners));
                 if self.is_folded() {
