@@ -142,9 +142,9 @@ fn write_primvars(
 ) -> io::Result<()> {
     for (k, primvar) in primvars.iter().enumerate() {
         let jet = surface
-            .eval_primvar(k, quad, row.u, row.v)
+            .eval_primvar::<4>(k, quad, row.u, row.v)
             .expect("rows on omitted faces were refused, and the primvar is one of the cage");
-        let numbers = [jet.value, jet.du, jet.dv];
+        let numbers = [jet.p, jet.du, jet.dv];
         let numbers = numbers.iter().flat_map(|x| &x[..primvar.width]);
         numbers.copied().try_for_each(|x| write_number(out, x))?;
     }
@@ -245,7 +245,7 @@ impl<'a> Row<'a> {
     /// The parametric quad that is asked for, which has a surface.
     fn quad(&self, surface: &Surface) -> Result<QuadId, Fault> {
         let fault = |text: String| Fault { line: self.line, text };
-        let faces = surface.cage().topology().faces();
+        let faces = surface.topology().faces();
         if self.face.index() >= faces.len() {
             return Err(fault(format!(
                 "there is no face {}: {}",

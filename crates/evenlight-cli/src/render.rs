@@ -173,7 +173,7 @@ pub fn write(picture: &Picture, target: &Target) -> Result<(), Failure> {
 /// The view along the limit normal of the extraordinary vertex `vertex`.
 pub fn view_at(surface: &Surface, vertex: VertexId) -> Option<View> {
     let points = surface.extraordinary_points();
-    View::toward(surface, points.iter().position(|point| point.vertex == Some(vertex))?)
+    View::toward(surface, points.iter().position(|point| point.vertex() == Some(vertex))?)
 }
 
 /// The surfaces to show, at least one.

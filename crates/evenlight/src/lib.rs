@@ -94,7 +94,7 @@ pub use mesh::{Cage, FaceId, Mesh, VertexId};
 pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
 pub use scheme::{Contraction, RuleSet, SchemeKind, Variant};
-pub use surface::{QuadId, Surface, SurfaceOptions};
+pub use surface::{Layout, QuadId, Surface, SurfaceOptions};
 
 /// The examples of the README are tested.
 #[cfg(doctest)]

@@ -87,7 +87,7 @@ fn smooth_cages_have_one_side_per_vertex() {
 fn there_are_no_more_sides_than_infinitely_sharp_edges_make() {
     let mut num_folded = 0;
     for (name, surface) in features() {
-        let creases = &surface.cage().tags().creases;
+        let creases = &surface.tags().creases;
         let has_infinite = creases.iter().any(|crease| crease.sharpness >= INFINITELY_SHARP);
         let mesh = tessellate(&surface, 2).unwrap();
         assert!(has_infinite || !mesh.is_folded(), "{name}");
@@ -150,8 +150,8 @@ fn sides_change_at_sharp_edges_only() {
 fn lies_on_sharp_edge(surface: &Surface, mesh: &TriangleMesh, edge: [u32; 2], t: usize) -> bool {
     let place = mesh.parametric_triangle(t);
     let uv = edge.map(|v| place.uv[mesh.triangles[t].iter().position(|&w| w == v).unwrap()]);
-    let (face, corner) = surface.face_of(place.quad);
-    let topology = surface.cage().topology();
+    let (face, corner) = surface.face_of(place.quad).unwrap();
+    let topology = surface.topology();
     let n = topology.faces().corners(face).len();
     let side = match uv {
         [[_, 0.0], [_, 0.0]] => corner,

@@ -114,7 +114,7 @@ pub fn shape(surface: &Surface, rings: usize) -> Vec<PointShape> {
         }
     }
     map_indexed(points.len(), |point| {
-        let around = Around { rings: surface.rings(point), point: &points[point] };
+        let around = Around { rings: surface.rings_at(point), point: &points[point] };
         let (scale, along_rays, around_rings) = around.oscillations(rings);
         let (curvature, energy) = over_patches(surface, &places[point], rings);
         PointShape { point, curvature, scale, along_rays, around_rings, energy }
@@ -133,7 +133,7 @@ fn over_patches(surface: &Surface, places: &[PatchPlace], rings: usize) -> (Ring
             curvature.mean = curvature.mean.union(found.mean);
         }
         if ring <= ENERGY_RINGS {
-            energy += shape_energy(&surface.patch(place));
+            energy += shape_energy(&surface.patch_at(place));
         }
     }
     (curvature, energy)

@@ -17,7 +17,8 @@ pub(crate) mod sharpness;
 mod tags;
 mod topology;
 
-pub use check::{Cage, PrimvarFault};
+pub(crate) use check::check_values;
+pub use check::{Cage, PrimvarFault, ValuesError};
 pub use fan::Fan;
 pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};

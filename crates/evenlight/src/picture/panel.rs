@@ -325,7 +325,7 @@ mod tests {
             let target = surface
                 .extraordinary_points()
                 .iter()
-                .position(|p| p.vertex.is_some_and(|v| v.0 == 0));
+                .position(|p| p.vertex().is_some_and(|v| v.0 == 0));
             for zoom in [3.0, 30.0, 1e3, 1e6] {
                 let view = View {
                     zoom,
@@ -370,10 +370,9 @@ mod tests {
             [1.0, 1.0, 0.0],
             [1e-9, 1.0, 1e9],
         ] {
-            let cage = paraboloid.cage();
-            let faces = cage.topology().faces().clone();
+            let faces = paraboloid.topology().faces().clone();
             let move_point = |p: &Point| std::array::from_fn(|k| factor[k] * p[k]);
-            let positions = cage.positions().iter().map(move_point).collect();
+            let positions = paraboloid.positions().iter().map(move_point).collect();
             let surface = surface(Mesh { positions, faces, ..Mesh::default() });
             for style in Style::ALL {
                 let picture =

@@ -149,9 +149,8 @@ pub enum TessellateError {
 /// If `rate` is 0, or if there would be 2^32 - 1 vertices or more. Running out of memory is
 /// not an error that is reported.
 pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, TessellateError> {
-    let nodes = Nodes::number(surface.cage().topology(), rate_used(surface, rate)?, |f| {
-        !surface.is_omitted(f)
-    })?;
+    let nodes =
+        Nodes::number(surface.topology(), rate_used(surface, rate)?, |f| !surface.is_omitted(f))?;
     let sides = Sides::number(surface, &nodes)?;
     let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
     mesh.side_vertices = sides.nodes().to_vec();
@@ -164,7 +163,7 @@ pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, Tessel
 
 /// The rate rounded up to what the n-gons need.
 fn rate_used(surface: &Surface, rate: usize) -> Result<usize, TessellateError> {
-    let faces = surface.cage().topology().faces();
+    let faces = surface.topology().faces();
     let has_ngon = || faces.ids().any(|f| faces.corners(f).len() != 4 && !surface.is_omitted(f));
     match rate {
         0 => Err(TessellateError::ZeroRate),
@@ -206,7 +205,7 @@ fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> 
     /// Sines of angles that files with seven digits leave of a straight one, and more.
     const STRAIGHT: f64 = 1e-4;
     let Some(corner) = grid.corner_of_face(i, j) else { return false };
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let h = topology.half_edge(grid.face, corner);
     if ![h, topology.previous(h)].into_iter().all(|h| surface.is_infinitely_sharp(h)) {
         return false;
