@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 const LAYERS: [&str; 16] = [
     "point",
     "angle",
-    "parallel",
+    "task",
     "dense",
     "patch",
     "mesh",

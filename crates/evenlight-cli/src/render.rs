@@ -142,9 +142,8 @@ pub fn run(args: &RenderArgs, quiet: bool) -> Result<(), Failure> {
     progress.stage("Building the surface");
     let surfaces = surfaces(args)?;
     progress.step();
-    progress.stage("Drawing");
     let options = options(args, &surfaces[0])?;
-    let picture = draw(&surfaces, &options, !args.compare.is_empty())?;
+    let picture = progress.show(|| draw(&surfaces, &options, !args.compare.is_empty()))?;
     progress.step();
     progress.stage("Writing the picture");
     write(&picture, &args.output)

@@ -54,6 +54,7 @@
 //! | module | |
 //! | --- | --- |
 //! | [`point`] | points and vectors |
+//! | [`task`] | threads, progress, cancelling |
 //! | [`patch`] | Bernstein-Bezier patches, jets |
 //! | [`mesh`] | cages, connectivity, isolation of extraordinary points |
 //! | [`net`] | control nets around one extraordinary point, the quadratic q |
@@ -80,7 +81,6 @@ mod dense;
 pub mod io;
 pub mod mesh;
 pub mod net;
-mod parallel;
 pub mod patch;
 #[cfg(feature = "picture")]
 pub mod picture;
@@ -88,6 +88,7 @@ pub mod point;
 pub mod rings;
 pub mod scheme;
 pub mod surface;
+pub mod task;
 pub mod tessellate;
 
 pub use mesh::{Cage, FaceId, Mesh, VertexId};

@@ -9,6 +9,7 @@ use std::collections::{HashMap, HashSet};
 use evenlight::io::{glb, obj, obj_out, ply, ply_out};
 use evenlight::mesh::{Crease, FaceVaryingRule, INFINITELY_SHARP, Interpolation, Mesh, Primvar};
 use evenlight::point::{cross, dot, norm, sub, unit};
+use evenlight::task::Task;
 use evenlight::tessellate::{CornerChannels, TriangleMesh, tessellate};
 use evenlight::{Cage, SchemeKind, Surface, VertexId};
 
@@ -480,13 +481,11 @@ fn normals_of_sides_look_outward() {
     }
 }
 
-#[cfg(feature = "parallel")]
 #[test]
 fn the_number_of_threads_does_not_change_a_byte() {
     let surface = surface(painted_cube());
     let bytes = [1, 2, 5].map(|num_threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
-        pool.install(|| {
+        Task::new().threads(num_threads).run(|| {
             let mesh = tessellate(&surface, 7).unwrap();
             glb_bytes(&mesh, &mesh.corner_channels(&surface))
         })
