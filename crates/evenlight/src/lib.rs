@@ -56,8 +56,8 @@
 //! | [`point`] | points and vectors |
 //! | [`task`] | threads, progress, cancelling |
 //! | [`patch`] | Bernstein-Bezier patches, jets |
-//! | [`mesh`] | cages, connectivity, isolation of extraordinary points |
 //! | [`net`] | control nets around one extraordinary point, the quadratic q |
+//! | [`mesh`] | cages, connectivity, isolation of extraordinary points |
 //! | [`scheme`] | which rules there are |
 //! | [`rings`] | the surface around one extraordinary point at any depth |
 //! | [`cap`] | finitely many patches instead of all further rings |

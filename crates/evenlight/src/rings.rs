@@ -38,8 +38,7 @@ pub(crate) use grid::for_each_pair;
 
 use std::sync::{Arc, OnceLock};
 
-use crate::mesh::Fan;
-use crate::net::{CNet, DNet, Expansion, Quadratic};
+use crate::net::{CNet, DNet, Expansion, Fan, Quadratic};
 use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::point::{Vector, add, add_scaled, cross, dot, in_space, norm, scale, sub, unit};

@@ -30,7 +30,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::rules::{PatchRule, Row, Rules, Symmetry};
 use crate::angle::{cosine, sine};
-use crate::mesh::{Fan, VertexRule};
+use crate::net::{Fan, VertexRule};
 use crate::patch::basis::CUBIC_B_SPLINE_TO_BB;
 use crate::point::{Point, Vector, add_scaled, cross, dot, norm, sub, unit};
 

@@ -26,7 +26,7 @@ use std::sync::OnceLock;
 
 use super::{FanLimit, Net as CoarseNet, Tangents};
 use crate::dense::Matrix;
-use crate::mesh::{Fan, VertexRule};
+use crate::net::{Fan, VertexRule};
 use crate::scheme::rules::{Row, Rules, Symmetry};
 use crate::scheme::subdominant::Subdominant;
 use energy::{Polar, RingChart, RingForms};
