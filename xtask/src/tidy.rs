@@ -10,10 +10,11 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "point",
     "angle",
     "task",
+    "quadrature",
     "dense",
     "patch",
     "net",

@@ -85,6 +85,7 @@ pub mod patch;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod point;
+mod quadrature;
 pub mod rings;
 pub mod scheme;
 pub mod surface;

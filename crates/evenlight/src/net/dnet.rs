@@ -49,10 +49,19 @@ impl<const N: usize> DNet<N> {
     ///   grid nodes, one in the middle of a quad (1,1)/2;
     /// - bi-3, by knot insertion [KP23-QAS, Fig. 3]: (1,6,1)/8 and (1,1)/2.
     pub fn from_cnet(cnet: &CNet<N>, spline: Spline) -> Self {
-        let mask = |i| spline.mask(i);
-        let sectors = (0..cnet.valence())
-            .map(|s| std::array::from_fn(|k| cnet.tensor(s, &mask(k % 4), &mask(k / 4))))
-            .collect();
+        let rows: [Vec<(Option<NodeRef>, f64)>; DNET_NODES] = std::array::from_fn(|k| {
+            let [u, v] = [k % 4, k / 4].map(|i| spline.mask(i));
+            let terms = u.iter().flat_map(|a| v.iter().map(move |b| (a, b)));
+            terms.map(|(a, b)| (cnet_node(a.0, b.0), a.1 * b.1)).collect()
+        });
+        let mut sectors = Vec::with_capacity(cnet.valence());
+        for s in 0..cnet.valence() {
+            let mut sector = [[0.0; N]; DNET_NODES];
+            for (node, row) in sector.iter_mut().zip(&rows) {
+                row.iter().for_each(|&(at, w)| add_scaled(node, w, cnet.node(s, at)));
+            }
+            sectors.push(sector);
+        }
         Self { sectors }
     }
 
