@@ -217,7 +217,7 @@ fn jacobian(f: usize) -> Result<[f64; 2], Box<dyn Error>> {
     let (surface, point) = build(&half_disc(f, &flat), CreaseRings::Fair)?;
     let middle = |k: usize| (k as f64 + 0.5) / GRID as f64;
     let mut values = Vec::new();
-    for patch in surface.rings(point).unwrap().patches(RING) {
+    for patch in surface.rings(point).unwrap().patches(RING).unwrap() {
         let jets = (0..GRID * GRID).map(|k| patch.jet(middle(k / GRID), middle(k % GRID)));
         values.extend(jets.map(|jet| norm(cross(jet.du, jet.dv))));
     }

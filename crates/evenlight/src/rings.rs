@@ -137,7 +137,7 @@ impl ValenceRules {
 /// net.sectors[0][11] = [0.0, 0.0, 1.0];
 /// let rings = Rings::from_dnet(&net, SchemeKind::EvolvingGuide, RuleSet::Generated).unwrap();
 /// assert_eq!(rings.valence(), 5);
-/// assert_eq!(rings.patches(0).len(), 15);
+/// assert_eq!(rings.patches(0).map(|ring| ring.len()), Some(15));
 /// ```
 #[derive(Debug)]
 pub struct Rings<const N: usize = 3> {
@@ -151,6 +151,10 @@ pub struct Rings<const N: usize = 3> {
     first: Vec<[f64; N]>,
     cached: [OnceLock<Box<Ring<N>>>; CACHED_RINGS],
 }
+
+/// The rings that can be asked for by their numbers, from 0. A later one is smaller than the least
+/// `f64`, whatever the contraction.
+pub const MAX_RINGS: usize = 4096;
 
 /// Rings that are kept once they were asked for. A parameter closer to the centre than
 /// 2^-64 (sigma^64) is made of the last of them anew, in time proportional to its depth.
@@ -216,22 +220,30 @@ impl<const N: usize> RingScale<N> {
 impl Rings {
     /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
     ///
+    /// `None` if `s` is not below the valence or a, b are not from 0 to 1.
+    ///
     /// At (0,0) the position is the limit point and the normal the limit normal; derivatives are
-    /// NaN there, curvature is [`Rings::center_curvature`] or NaN. Elsewhere curvature is exact to rounding at any depth.
-    /// Derivatives are in world coordinates; beyond ring 500 or so the second derivatives may
-    /// exceed the range of f64.
-    ///
-    /// # Panics
-    ///
-    /// If `s` is not below the valence or a, b are not from 0 to 1.
-    pub fn eval(&self, s: usize, a: f64, b: f64) -> SurfacePoint {
-        self.eval_as(s, a, b)
+    /// NaN there, curvature is [`Rings::center_curvature`] or NaN. Elsewhere curvature is exact to
+    /// rounding at any depth. Derivatives are in world coordinates; beyond ring 500 or so the second
+    /// derivatives may exceed the range of f64.
+    pub fn eval(&self, s: usize, a: f64, b: f64) -> Option<SurfacePoint> {
+        let is_inside = [a, b].iter().all(|x| (0.0..=1.0).contains(x));
+        (s < self.valence() && is_inside).then(|| self.eval_as(s, a, b))
     }
 
     /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
-    /// polynomial is extrapolated if (a,b) is not in the patch.
-    pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
-        self.eval_on_as(ring, s, which, [a, b])
+    /// polynomial is extrapolated if (a,b) is not in the patch. `None` if there is no such patch, or
+    /// a or b is NaN.
+    pub fn eval_on(
+        &self,
+        ring: usize,
+        s: usize,
+        which: usize,
+        a: f64,
+        b: f64,
+    ) -> Option<SurfacePoint> {
+        let is_known = self.has_patch(ring, s, which) && !a.is_nan() && !b.is_nan();
+        is_known.then(|| self.eval_on_as(ring, s, which, [a, b]))
     }
 }
 
@@ -254,7 +266,7 @@ impl<const N: usize> Rings<N> {
         variant: impl Into<Variant>,
     ) -> Option<Self> {
         let rules = Arc::new(ValenceRules::new(kind, variant.into(), dnet.valence())?);
-        let center = dnet.center(kind.spline()?);
+        let center = dnet.center(kind.spline()?)?;
         let net: Vec<[f64; N]> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
         Some(Self::start(&net, center, None, rules))
     }
@@ -355,32 +367,45 @@ impl<const N: usize> Rings<N> {
     }
 
     /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; in ring l
-    /// it is sigma^l as large. The patch's own parameters run the same way.
+    /// it is sigma^l as large. The patch's own parameters run the same way. `None` if there is no
+    /// such patch.
     ///
     /// With s = sigma patches lie in three squares, \[s,1\] x \[s,1\], \[s,1\] x \[0,s\] and
     /// \[0,s\] x \[s,1\], one in each, 2 x 2 or 3 x 3, the index along b fastest.
-    pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
-        self.rules.rules.patch_domain(which)
+    pub fn patch_domain(&self, which: usize) -> Option<[[f64; 2]; 2]> {
+        (which < self.patches_per_sector()).then(|| self.rules.rules.patch_domain(which))
     }
 
-    /// All patches of ring `ring` (from 0), sector by sector.
-    pub fn patches(&self, ring: usize) -> Vec<Patch<N>> {
-        self.frame_patches(ring).iter().map(|patch| self.to_world(ring, patch)).collect()
+    /// All patches of ring `ring` (from 0), sector by sector; `None` if it is not below
+    /// [`MAX_RINGS`].
+    pub fn patches(&self, ring: usize) -> Option<Vec<Patch<N>>> {
+        let all = || self.frame_patches(ring).iter().map(|p| self.to_world(ring, p)).collect();
+        (ring < MAX_RINGS).then(all)
     }
 
-    /// Patch `which` of sector `s` of ring `ring`.
-    pub fn patch(&self, ring: usize, s: usize, which: usize) -> Patch<N> {
+    /// Patch `which` of sector `s` of ring `ring`; `None` if there is no such patch.
+    pub fn patch(&self, ring: usize, s: usize, which: usize) -> Option<Patch<N>> {
+        self.has_patch(ring, s, which).then(|| self.patch_at(ring, s, which))
+    }
+
+    /// Whether there is such a patch.
+    fn has_patch(&self, ring: usize, s: usize, which: usize) -> bool {
+        ring < MAX_RINGS && s < self.valence() && which < self.patches_per_sector()
+    }
+
+    /// The patch that there is.
+    pub(crate) fn patch_at(&self, ring: usize, s: usize, which: usize) -> Patch<N> {
         self.with_ring(ring, |net, r| {
             let mut coefs = self.coefs(net, r, s, which);
             coefs.iter_mut().for_each(|p| *p = add(self.center, r.scale.world(r.scale.sigma, *p)));
-            Patch::new([self.rules.rules.degree; 2], coefs)
+            Patch::of([self.rules.rules.degree; 2], coefs)
         })
     }
 
-    /// [`Rings::eval`] of what is wanted alone.
+    /// [`Rings::eval`] of what is wanted alone, in a sector that there is.
     #[inline]
     pub(crate) fn eval_as<A: Answer<N>>(&self, s: usize, a: f64, b: f64) -> A {
-        assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
+        debug_assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
         if a.max(b) == 0.0 {
             return self.at_center();
         }
@@ -389,7 +414,7 @@ impl<const N: usize> Rings<N> {
         self.eval_in_patch(ring, s, place)
     }
 
-    /// [`Rings::eval_on`] of what is wanted alone.
+    /// [`Rings::eval_on`] of what is wanted alone, of a patch that there is.
     pub(crate) fn eval_on_as<A: Answer<N>>(
         &self,
         ring: usize,
@@ -502,7 +527,7 @@ impl<const N: usize> Rings<N> {
 
     /// Patch `which` of sector `s` of the ring behind `net`.
     fn frame_patch(&self, net: &[[f64; N]], ring: &Ring<N>, s: usize, which: usize) -> Patch<N> {
-        Patch::new([self.rules.rules.degree; 2], self.coefs(net, ring, s, which))
+        Patch::of([self.rules.rules.degree; 2], self.coefs(net, ring, s, which))
     }
 
     /// The BB coefficients of patch `which` of sector `s` of the ring behind `net`.
@@ -559,7 +584,7 @@ impl<const N: usize> Rings<N> {
     pub(crate) fn to_world(&self, ring: usize, patch: &Patch<N>) -> Patch<N> {
         let scale = self.ring_scale(ring);
         let point = |&r: &[f64; N]| add(self.center, scale.world(scale.sigma, r));
-        Patch::new(patch.degree(), patch.coefs().iter().map(point).collect())
+        Patch::of(patch.degree(), patch.coefs().iter().map(point).collect())
     }
 
     /// Calls `f` with the net in front of ring `ring` and the ring.

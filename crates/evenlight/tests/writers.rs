@@ -192,7 +192,7 @@ fn placed(role: Role, z: f64) -> PlacedPatch {
         domain: [[0.0, 1.0]; 2],
         point: None,
         sector: None,
-        patch: Patch::new([1, 1], coefs),
+        patch: Patch::new([1, 1], coefs).unwrap(),
     }
 }
 

@@ -140,6 +140,7 @@ impl Default for RenderOptions {
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PictureError {
     /// The picture is empty or too large.
     #[error("a picture of {width} x {height} pixels: each side must have 1 to {MAX_SIDE}")]
@@ -156,6 +157,14 @@ pub enum PictureError {
         panels: usize,
         /// The width asked for.
         width: usize,
+    },
+    /// There is no such eigenfunction.
+    #[error("there is no eigenfunction {number}, but 0 to {}", count.saturating_sub(1))]
+    Function {
+        /// The number asked for.
+        number: usize,
+        /// How many there are.
+        count: usize,
     },
     /// An option is out of range.
     #[error("{option} must be {allowed}")]
