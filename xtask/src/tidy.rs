@@ -10,7 +10,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "point",
     "angle",
     "parallel",
@@ -23,6 +23,7 @@ const LAYERS: [&str; 16] = [
     "cap",
     "basis",
     "surface",
+    "complex",
     "tessellate",
     "analyse",
     "io",

@@ -62,6 +62,7 @@
 //! | [`cap`] | finitely many patches instead of all further rings |
 //! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
+//! | [`complex`] | its patches, and the edges and vertices where they meet |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
 //! | [`io`] | OBJ, PLY, USD, glTF, STL, BezierView |
@@ -76,6 +77,7 @@ pub mod analyse;
 mod angle;
 pub mod basis;
 pub mod cap;
+pub mod complex;
 mod dense;
 pub mod io;
 pub mod mesh;
