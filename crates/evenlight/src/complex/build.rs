@@ -157,12 +157,8 @@ fn edge_place(carrier: Carrier) -> (EdgePlace, Exact) {
     match carrier {
         Carrier::CageEdge(h) => (EdgePlace::CageEdge(h), 2 * ONE),
         Carrier::FaceLine(face, k) => (EdgePlace::FaceLine { face, corner: k as usize }, ONE),
-        Carrier::Inside(q, 0, at) => {
-            (EdgePlace::AlongV { quad: quad(q), at: ratio(at, ONE) }, ONE)
-        }
-        Carrier::Inside(q, _, at) => {
-            (EdgePlace::AlongU { quad: quad(q), at: ratio(at, ONE) }, ONE)
-        }
+        Carrier::Inside(q, 0, at) => (EdgePlace::AlongV { quad: quad(q), at: ratio(at, ONE) }, ONE),
+        Carrier::Inside(q, _, at) => (EdgePlace::AlongU { quad: quad(q), at: ratio(at, ONE) }, ONE),
     }
 }
 

@@ -178,6 +178,21 @@ pub struct EdgeUse {
     pub is_forward: bool,
 }
 
+impl EdgeUse {
+    /// The patch's own (u,v) at `t` from 0 to 1 along the edge.
+    pub fn parameters(&self, t: f64) -> [f64; 2] {
+        let [from, to] = self.interval;
+        let t = if self.is_forward { t } else { 1.0 - t };
+        let s = from + t * (to - from);
+        match self.side {
+            0 => [s, 0.0],
+            1 => [1.0, s],
+            2 => [1.0 - s, 1.0],
+            _ => [0.0, 1.0 - s],
+        }
+    }
+}
+
 /// A curve in which two patches meet, or at which the surface ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchEdge {
@@ -318,11 +333,7 @@ impl PatchComplex {
     /// The edges that begin or end at a vertex, in their order.
     pub fn edges_at(&self, vertex: PatchVertexId) -> &[PatchEdgeId] {
         let exists = vertex.index() < self.vertices.len();
-        if exists {
-            self.edges_of_vertices.get(vertex.index()..vertex.index() + 1)
-        } else {
-            &[]
-        }
+        if exists { self.edges_of_vertices.get(vertex.index()..vertex.index() + 1) } else { &[] }
     }
 
     /// The patches across the edges of a patch, counter-clockwise; one that shares several edges with it
