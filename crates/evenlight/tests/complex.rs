@@ -24,7 +24,7 @@ const DEPTHS: [usize; 5] = [0, 1, 2, 3, 20];
 
 /// V - E + F of the faces with a surface.
 fn euler_of_cage(surface: &Surface) -> i64 {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let (mut vertices, mut edges, mut faces) = (BTreeSet::<VertexId>::new(), BTreeSet::new(), 0);
     for face in topology.faces().ids().filter(|&f| !surface.is_omitted(f)) {
         faces += 1;
@@ -81,7 +81,7 @@ fn check_patches(complex: &PatchComplex, name: &str) {
 
 /// Edges have the uses of their kind, and are of the kind that the cage says.
 fn check_edges(surface: &Surface, complex: &PatchComplex, has_holes: bool, name: &str) {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     for (id, edge) in complex.edges() {
         let is_interior = matches!(edge.kind, EdgeKind::Smooth | EdgeKind::Sharp);
         assert_eq!(edge.uses().len(), if is_interior { 2 } else { 1 }, "{name}: {edge:?}");
@@ -124,20 +124,19 @@ fn largest_difference(surface: &Surface, complex: &PatchComplex) -> [f64; 2] {
 
 /// Everything at one depth, without caps and, where there are caps, with them.
 fn check(surface: &Surface, rings: usize, name: &str) -> [f64; 2] {
-    let complex = PatchComplex::new(surface, rings).unwrap();
+    let complex = PatchComplex::of(surface, rings).unwrap();
     let has_holes = !surface.extraordinary_points().is_empty();
     check_patches(&complex, name);
     check_edges(surface, &complex, has_holes, name);
     let [mut rest, mut caps] = largest_difference(surface, &complex);
-    let mut with_caps =
-        Surface::build(Arc::new(surface.cage().clone()), surface.options()).unwrap();
+    let mut with_caps = surface.with_positions(surface.positions().to_vec()).unwrap();
     let options = CapOptions { rings, ..CapOptions::default() };
     if with_caps.set_caps(Some(options)).is_err() {
         assert_ne!(surface.options().contraction, Contraction::CatmullClark, "{name}");
         assert!(rings == 0 || euler(&complex) == euler_of_cage(surface) - holes(surface), "{name}");
         return [rest, caps];
     }
-    let whole = PatchComplex::new(&with_caps, rings).unwrap();
+    let whole = PatchComplex::of(&with_caps, rings).unwrap();
     check_patches(&whole, name);
     check_edges(&with_caps, &whole, false, name);
     assert_eq!(euler(&whole), euler_of_cage(surface), "{name}, {rings} rings with caps");
@@ -153,12 +152,12 @@ fn check(surface: &Surface, rings: usize, name: &str) -> [f64; 2] {
 /// V - E + F of the holes: of the sectors of points without their outer borders, and of the edges and
 /// vertices that no other patch has.
 fn holes(surface: &Surface) -> i64 {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let mut sum = 0;
     let mut of_points: BTreeSet<(VertexId, QuadId)> = BTreeSet::new();
     let mut vertices = BTreeSet::new();
     for point in surface.extraordinary_points() {
-        let Some(vertex) = point.vertex else {
+        let Some(vertex) = point.vertex() else {
             // A disc around the centre of an n-gon.
             sum += 1;
             continue;
@@ -266,10 +265,10 @@ fn at_edge(
         let [from, to] = place.domain[d];
         from + own[d] * (to - from)
     });
-    let Jet { p, du, dv, .. } = surface.eval_on(place, u, v).jet;
-    let face = surface.face_of(place.quad).0;
+    let Jet { p, du, dv, .. } = surface.eval_on(place, u, v).unwrap().jet;
+    let face = surface.face_of(place.quad).unwrap().0;
     let is_half = matches!(edge.place, EdgePlace::CageEdge(_))
-        && surface.cage().topology().faces().corners(face).len() != 4;
+        && surface.topology().faces().corners(face).len() != 4;
     let [from, to] = edge.interval;
     let unit = (to - from).abs() * if is_half { 2.0 } else { 1.0 };
     let direction = if used.is_forward { unit } else { -unit };
@@ -292,7 +291,7 @@ fn patches_go_on_across_their_edges_in_one_parametrisation() {
         let mut surface = common::surface(&cage, SchemeKind::default());
         for caps in [None, Some(CapOptions { rings: 20, ..CapOptions::default() })] {
             surface.set_caps(caps).unwrap();
-            let complex = PatchComplex::new(&surface, 20).unwrap();
+            let complex = PatchComplex::of(&surface, 20).unwrap();
             for (_, edge) in complex.edges().filter(|(_, edge)| edge.uses().len() == 2) {
                 let is_cap =
                     edge.uses().iter().any(|u| complex.place(u.patch).unwrap().role == Role::Cap);
@@ -326,7 +325,7 @@ fn a_place_is_in_the_patch_that_is_located() {
             let mut surface = common::surface(&cage, scheme);
             let options = CapOptions { rings, ..CapOptions::default() };
             surface.set_caps(capped.then_some(options)).unwrap();
-            let complex = PatchComplex::new(&surface, rings).unwrap();
+            let complex = PatchComplex::of(&surface, rings).unwrap();
             for quad in (0..surface.num_quads() as u32).map(QuadId) {
                 for k in 0..20 {
                     // Anywhere, and where borders are.
@@ -360,7 +359,7 @@ fn check_place(
     for (x, [from, to]) in [u, v].into_iter().zip(place.domain) {
         assert!(from - 1e-15 <= x && x <= to + 1e-15, "{name}: {x} in {place:?}");
     }
-    let (found, expected) = (surface.eval_on(place, u, v).jet.p, expected.unwrap().jet.p);
+    let (found, expected) = (surface.eval_on(place, u, v).unwrap().jet.p, expected.unwrap().jet.p);
     assert!(norm(sub(found, expected)) <= 1e-14 * norm(expected).max(1.0), "{name} {place:?}");
 }
 
@@ -373,7 +372,7 @@ fn is_in_hole(surface: &Surface, rings: usize, quad: QuadId, [u, v]: [f64; 2]) -
             let [a, b] = sector.along.map(|line| {
                 (step[0] * line[0] + step[1] * line[1]) / (line[0] * line[0] + line[1] * line[1])
             });
-            let hole = surface.rings(point).sigma().powi(rings as i32);
+            let hole = surface.rings(point).unwrap().sigma().powi(rings as i32);
             a.min(b) >= 0.0 && a.max(b) <= hole && (rings == 0 || a.max(b) < hole)
         })
     })
@@ -383,7 +382,7 @@ fn is_in_hole(surface: &Surface, rings: usize, quad: QuadId, [u, v]: [f64; 2]) -
 fn vertices_are_where_the_patches_say() {
     let cage = cage("own_polygons.obj");
     let surface = common::surface(&cage, SchemeKind::default());
-    let complex = PatchComplex::new(&surface, 2).unwrap();
+    let complex = PatchComplex::of(&surface, 2).unwrap();
     for (_, edge) in complex.edges() {
         for used in edge.uses() {
             for (end, t) in edge.vertices.into_iter().zip([0.0, 1.0]) {
@@ -394,7 +393,7 @@ fn vertices_are_where_the_patches_say() {
                     from + own[d] * (to - from)
                 });
                 let expected = position(&surface, complex.vertex(end).unwrap());
-                let found = surface.eval_on(place, uv[0], uv[1]).jet.p;
+                let found = surface.eval_on(place, uv[0], uv[1]).unwrap().jet.p;
                 assert!(norm(sub(found, expected)) < 1e-14 * norm(expected).max(1.0));
             }
         }
@@ -403,7 +402,7 @@ fn vertices_are_where_the_patches_say() {
 
 /// The point of the surface at a vertex of the complex.
 fn position(surface: &Surface, place: VertexPlace) -> Vector {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let quad = |face, corner| surface.quad(face, corner).unwrap();
     let at = |quad, [u, v]: [f64; 2]| surface.eval(quad, u, v).unwrap().jet.p;
     let on_edge = |h, t: f64| {
@@ -427,7 +426,7 @@ fn position(surface: &Surface, place: VertexPlace) -> Vector {
 #[test]
 fn what_does_not_exist_is_none() {
     let surface = common::surface(&cage("obstacle/flat_n5.obj"), SchemeKind::default());
-    let complex = PatchComplex::new(&surface, 1).unwrap();
+    let complex = PatchComplex::of(&surface, 1).unwrap();
     let (patch, edge, vertex) = (PatchId(u32::MAX), PatchEdgeId(u32::MAX), PatchVertexId(u32::MAX));
     assert_eq!(complex.place(patch), None);
     assert_eq!(complex.edge(edge), None);
@@ -449,11 +448,11 @@ fn a_hundred_rings_are_possible_and_no_more() {
     let surface = common::surface(&cage, SchemeKind::default());
     check_all_depths(&surface, &[100], "flat_n5");
     for rings in [101, usize::MAX] {
-        let error = PatchComplex::new(&surface, rings).unwrap_err();
+        let error = PatchComplex::of(&surface, rings).unwrap_err();
         assert_eq!(error, ComplexError::TooDeep { rings, most: 100 });
     }
     let torus = Arc::new(Cage::new(common::torus(4, 5)).unwrap());
     let regular = common::surface(&torus, SchemeKind::default());
-    let complex = PatchComplex::new(&regular, usize::MAX).unwrap();
+    let complex = PatchComplex::of(&regular, usize::MAX).unwrap();
     assert_eq!((complex.num_patches(), complex.num_edges(), complex.num_vertices()), (20, 40, 20));
 }

@@ -1,29 +1,29 @@
 //! The polynomials of edges: one set of coefficients for all patches that meet there.
 
-use super::{EdgeUse, PatchComplex, PatchEdgeId};
+use super::{EdgeUse, PatchComplex, PatchEdgeId, PatchId};
 use crate::patch::Patch;
-use crate::point::{Point, add_scaled, scale};
+use crate::point::{add_scaled, scale};
 use crate::surface::Surface;
 
 /// A polynomial curve in Bernstein-Bezier form, its parameter running from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Border {
-    coefs: Vec<Point>,
+pub struct Border<const N: usize = 3> {
+    coefs: Vec<[f64; N]>,
 }
 
-impl Border {
+impl<const N: usize> Border<N> {
     /// The degree.
     pub fn degree(&self) -> usize {
         self.coefs.len() - 1
     }
 
     /// The BB coefficients, the first at the start.
-    pub fn coefs(&self) -> &[Point] {
+    pub fn coefs(&self) -> &[[f64; N]] {
         &self.coefs
     }
 
     /// The point at `t`, by de Casteljau's algorithm.
-    pub fn point(&self, t: f64) -> Point {
+    pub fn point(&self, t: f64) -> [f64; N] {
         let mut coefs = self.coefs.clone();
         for len in (1..coefs.len()).rev() {
             for k in 0..len {
@@ -46,7 +46,7 @@ impl Border {
     }
 
     /// The border of a patch along a side, counter-clockwise.
-    fn of_side(patch: &Patch, side: u8) -> Self {
+    fn of_side(patch: &Patch<N>, side: u8) -> Self {
         let [du, dv] = patch.degree();
         let coefs = match side {
             0 => (0..=du).map(|i| patch.coef(i, 0)).collect(),
@@ -85,7 +85,7 @@ impl Border {
     }
 }
 
-fn mix(a: Point, b: Point, t: f64) -> Point {
+fn mix<const N: usize>(a: [f64; N], b: [f64; N], t: f64) -> [f64; N] {
     let mut p = scale(1.0 - t, a);
     add_scaled(&mut p, t, b);
     p
@@ -93,34 +93,44 @@ fn mix(a: Point, b: Point, t: f64) -> Point {
 
 impl PatchComplex {
     /// The curve of an edge, from its first to its second vertex: the border of its first use, which
-    /// stands for all; `None` if there is no such edge.
-    ///
-    /// `surface` must be the one of which the complex was made.
-    pub fn border(&self, surface: &Surface, edge: PatchEdgeId) -> Option<Border> {
+    /// stands for all. `None` if there is no such edge, or if the surface has another layout or no such
+    /// caps.
+    pub fn border<const N: usize>(
+        &self,
+        surface: &Surface<N>,
+        edge: PatchEdgeId,
+    ) -> Option<Border<N>> {
         self.border_of_use(surface, edge, 0)
     }
 
     /// The curve of an edge from its use number `which`, for whoever wants to see that all uses have
     /// one: in exact arithmetic they are the same polynomial, up to its degree.
-    pub fn border_of_use(
+    pub fn border_of_use<const N: usize>(
         &self,
-        surface: &Surface,
+        surface: &Surface<N>,
         edge: PatchEdgeId,
         which: usize,
-    ) -> Option<Border> {
+    ) -> Option<Border<N>> {
         let EdgeUse { patch, side, interval, is_forward } = *self.edge(edge)?.uses().get(which)?;
-        let patch = surface.patch(self.place(patch)?);
+        let patch = self.patch(surface, patch)?;
         let mut border = Border::of_side(&patch, side).part(interval);
         if !is_forward {
             border.coefs.reverse();
         }
         Some(border)
     }
+
+    /// The polynomial of a patch, by its own parameters; `None` as of [`PatchComplex::border`].
+    pub fn patch<const N: usize>(&self, surface: &Surface<N>, patch: PatchId) -> Option<Patch<N>> {
+        let is_same = surface.layout().fingerprint() == self.layout.fingerprint();
+        surface.patch(self.place(patch)?).filter(|_| is_same)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::point::Point;
 
     fn cubic() -> Border {
         let coefs = vec![[0.0, 1.0, 0.5], [1.0, -1.0, 2.0], [2.0, 0.5, 0.0], [1.5, 0.0, 1.0]];

@@ -1,5 +1,7 @@
 //! From the places of the patches to the complex.
 
+use std::sync::Arc;
+
 use super::carrier::{Carrier, Meeting, QuadOfFace, Side};
 use super::exact::{Exact, Lines, ONE, ratio};
 use super::pair::{Pair, pairs};
@@ -8,92 +10,121 @@ use super::{
     ComplexError, EdgeKind, EdgePlace, EdgeUse, Lists, PatchComplex, PatchEdge, PatchEdgeId,
     PatchId, PatchVertexId, VertexPlace,
 };
-use crate::mesh::{HalfEdgeId, Topology};
-use crate::surface::{PatchPlace, QuadId, Surface};
+use crate::cap::CapOptions;
+use crate::mesh::HalfEdgeId;
+use crate::surface::{CapPlan, Layout, PatchPlace, QuadId, Surface};
 
 impl PatchComplex {
-    /// The complex of all regular patches and of `rings` rings around every extraordinary point; of a
-    /// closed surface no more rings than it has, and if it is all of them the caps.
+    /// The complex of all regular patches and of `rings` rings around every extraordinary point, for all
+    /// surfaces over a layout; of surfaces that are closed by caps no more rings than they have, and if it
+    /// is all of them the caps.
     ///
-    /// Takes time n log n in the number of patches, and the same memory as they do.
+    /// Takes time n log n in the number of patches, and memory as they do.
     ///
     /// # Errors
     ///
     /// [`ComplexError::TooDeep`] if rings are more than 100, or if they contract so fast that positions in
     /// the last of them are not told apart (more than about 30 of those that contract fastest).
-    /// [`ComplexError::TooMany`] if there are 2^32 edges or more.
-    pub fn new(surface: &Surface, rings: usize) -> Result<Self, ComplexError> {
-        let lines = lines_of_points(surface, rings)?;
-        let places: Vec<PatchPlace> = surface.patch_places(rings).collect();
-        // A patch has four edges at least, of which two patches share one.
-        if places.len() >= u32::MAX as usize / 4 {
+    /// [`ComplexError::Cap`] if there are no such caps. [`ComplexError::TooMany`] if there are 2^31 edges
+    /// or more.
+    pub fn new(
+        layout: &Arc<Layout>,
+        rings: usize,
+        caps: Option<CapOptions>,
+    ) -> Result<Self, ComplexError> {
+        let caps = caps.map(|options| CapPlan::new(layout, options)).transpose()?;
+        Self::with_caps(layout.clone(), rings, caps.as_ref())
+    }
+
+    /// [`PatchComplex::new`] with the layout and the caps of a surface.
+    ///
+    /// # Errors
+    ///
+    /// As of [`PatchComplex::new`].
+    pub fn of<const N: usize>(surface: &Surface<N>, rings: usize) -> Result<Self, ComplexError> {
+        Self::with_caps(surface.layout().clone(), rings, surface.cap_plan().map(|plan| &**plan))
+    }
+
+    fn with_caps(
+        layout: Arc<Layout>,
+        rings: usize,
+        caps: Option<&CapPlan>,
+    ) -> Result<Self, ComplexError> {
+        let lines = lines_of_points(&layout, rings, caps)?;
+        let places: Vec<PatchPlace> = layout.places(rings, caps).collect();
+        if places.len() >= MOST_PATCHES {
             return Err(ComplexError::TooMany);
         }
-        let sides = sides_of_patches(surface, &places, &lines);
+        let sides = sides_of_patches(&layout, &places, &lines);
         let pairs = pairs(&sides);
-        if pairs.len() >= u32::MAX as usize / 2 {
+        if pairs.len() >= MOST_EDGES {
             return Err(ComplexError::TooMany);
         }
-        let topology = surface.cage().topology();
-        let (meetings, vertices) = vertices(surface, topology, &pairs);
-        let edges: Vec<PatchEdge> = pairs
-            .iter()
-            .zip(vertices)
-            .map(|(pair, vertices)| edge(surface, &sides, pair, vertices))
-            .collect();
-        let edges_of_sides = edges_of_sides(&edges, places.len());
-        let edges_of_vertices = edges_of_vertices(&edges, meetings.len());
-        let vertices = meetings.into_iter().map(VertexPlace::from).collect();
-        let pieces = Pieces::of(&places, surface.num_quads());
-        Ok(Self { places, pieces, lines, edges, edges_of_sides, vertices, edges_of_vertices })
+        let (meetings, vertices) = vertices(&layout, &pairs);
+        let ends = pairs.iter().zip(vertices);
+        let edges: Vec<PatchEdge> =
+            ends.map(|(pair, vertices)| edge(&layout, &sides, pair, vertices)).collect();
+        Ok(Self {
+            pieces: Pieces::of(&places, layout.num_quads()),
+            edges_of_sides: edges_of_sides(&edges, places.len()),
+            edges_of_vertices: edges_of_vertices(&edges, meetings.len()),
+            vertices: meetings.into_iter().map(VertexPlace::from).collect(),
+            layout,
+            lines,
+            places,
+            edges,
+        })
     }
 }
 
+/// The sides of so many patches can be numbered with 32 bits.
+const MOST_PATCHES: usize = u32::MAX as usize / 4;
+
+/// The ends of so many edges can be.
+const MOST_EDGES: usize = u32::MAX as usize / 2;
+
 /// The lines around every point to this depth.
-fn lines_of_points(surface: &Surface, rings: usize) -> Result<Vec<Lines>, ComplexError> {
+fn lines_of_points(
+    layout: &Layout,
+    rings: usize,
+    caps: Option<&CapPlan>,
+) -> Result<Vec<Lines>, ComplexError> {
+    let most = caps.map_or(rings, |caps| rings.min(caps.options.rings));
+    let closing = caps.filter(|caps| caps.options.rings <= rings);
     let of_point = |point: usize| {
-        let rules = surface.rings(point).rules().rules();
-        let cap = surface.cap(point);
-        let rings = cap.map_or(rings, |cap| rings.min(cap.rings()));
-        let cap_split = cap.filter(|cap| cap.rings() <= rings).map_or(0, |cap| cap.split());
-        let lines = Lines::new(rules, rings, cap_split);
-        let most = lines.most_rings();
-        if rings > most { Err(ComplexError::TooDeep { rings, most }) } else { Ok(lines) }
+        let cap_split = closing.map_or(0, |caps| caps.rules(point).split());
+        let lines = Lines::new(layout.rules(point).rules().rules(), most, cap_split);
+        let possible = lines.most_rings();
+        let error = ComplexError::TooDeep { rings: most, most: possible };
+        if most > possible { Err(error) } else { Ok(lines) }
     };
-    (0..surface.extraordinary_points().len()).map(of_point).collect()
+    (0..layout.extraordinary_points().len()).map(of_point).collect()
 }
 
-fn quad_of_face<'a>(surface: &Surface, topology: &'a Topology, quad: u32) -> QuadOfFace<'a> {
-    let (face, corner) = surface.face_of(QuadId(quad));
-    QuadOfFace { topology, quad, face, corner }
+fn quad_of_face(layout: &Layout, quad: u32) -> QuadOfFace<'_> {
+    let (face, corner) = layout.face_of_quad(QuadId(quad));
+    QuadOfFace { topology: layout.topology(), quad, face, corner }
 }
 
-fn sides_of_patches(surface: &Surface, places: &[PatchPlace], lines: &[Lines]) -> Vec<Side> {
-    let topology = surface.cage().topology();
+fn sides_of_patches(layout: &Layout, places: &[PatchPlace], lines: &[Lines]) -> Vec<Side> {
     let mut sides = Vec::with_capacity(4 * places.len());
-    let mut quad = None;
+    let mut quad: Option<QuadOfFace> = None;
     for (place, number) in places.iter().zip(0..) {
-        let here = match quad {
-            Some(here @ QuadOfFace { quad, .. }) if quad == place.quad.0 => here,
-            _ => quad_of_face(surface, topology, place.quad.0),
-        };
+        let known = quad.filter(|known| known.quad == place.quad.0);
+        let here = known.unwrap_or_else(|| quad_of_face(layout, place.quad.0));
         quad = Some(here);
-        let rules = |point: usize| surface.rings(point).rules().rules();
+        let rules = |point: usize| layout.rules(point).rules().rules();
         sides.extend(here.sides(number, rectangle(place, lines, rules)));
     }
     sides
 }
 
 /// The vertices in order, and those at both ends of every pair.
-fn vertices(
-    surface: &Surface,
-    topology: &Topology,
-    pairs: &[Pair],
-) -> (Vec<Meeting>, Vec<[PatchVertexId; 2]>) {
-    let quad = |quad: u32| quad_of_face(surface, topology, quad);
+fn vertices(layout: &Layout, pairs: &[Pair]) -> (Vec<Meeting>, Vec<[PatchVertexId; 2]>) {
+    let quad = |quad: u32| quad_of_face(layout, quad);
     let mut ends: Vec<(Meeting, usize)> = Vec::with_capacity(2 * pairs.len());
     for (k, pair) in pairs.iter().enumerate() {
-        let at = pair.interval.map(|at| pair.carrier.meeting(topology, at, quad));
+        let at = pair.interval.map(|at| pair.carrier.meeting(layout.topology(), at, quad));
         ends.extend([(at[0], 2 * k), (at[1], 2 * k + 1)]);
     }
     ends.sort_unstable();
@@ -110,7 +141,7 @@ fn vertices(
 
 /// The edge of a pair, whose vertices are at the lower and at the higher coordinate.
 fn edge(
-    surface: &Surface,
+    layout: &Layout,
     sides: &[Side],
     pair: &Pair,
     [low, high]: [PatchVertexId; 2],
@@ -127,7 +158,7 @@ fn edge(
     let interval = pair.interval.map(|at| ratio(at, length));
     PatchEdge {
         vertices: if is_along { [low, high] } else { [high, low] },
-        kind: kind(surface, pair),
+        kind: kind(layout, pair),
         place,
         interval: if is_along { interval } else { [interval[1], interval[0]] },
         uses: [
@@ -176,20 +207,20 @@ impl From<Meeting> for VertexPlace {
     }
 }
 
-fn kind(surface: &Surface, pair: &Pair) -> EdgeKind {
+fn kind(layout: &Layout, pair: &Pair) -> EdgeKind {
     let has_two = pair.forward.is_some() && pair.backward.is_some();
     match pair.carrier {
-        Carrier::CageEdge(h) if has_two && surface.is_infinitely_sharp(h) => EdgeKind::Sharp,
-        Carrier::CageEdge(h) if !has_two && is_boundary(surface, h) => EdgeKind::Boundary,
+        Carrier::CageEdge(h) if has_two && layout.is_infinitely_sharp(h) => EdgeKind::Sharp,
+        Carrier::CageEdge(h) if !has_two && is_boundary(layout, h) => EdgeKind::Boundary,
         _ if has_two => EdgeKind::Smooth,
         _ => EdgeKind::Rim,
     }
 }
 
 /// Whether an edge of the cage has a face without a surface, or one face only.
-fn is_boundary(surface: &Surface, h: HalfEdgeId) -> bool {
-    let topology = surface.cage().topology();
-    let is_covered = |h: HalfEdgeId| !surface.is_omitted(topology.face(h));
+fn is_boundary(layout: &Layout, h: HalfEdgeId) -> bool {
+    let topology = layout.topology();
+    let is_covered = |h: HalfEdgeId| !layout.is_omitted(topology.face(h));
     !is_covered(h) || !topology.twin(h).is_some_and(is_covered)
 }
 

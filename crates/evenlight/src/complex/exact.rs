@@ -280,7 +280,7 @@ mod tests {
         assert_eq!(exact(0.0), 0);
         assert_eq!(exact(1.0), ONE);
         assert_eq!(exact(0.75), ONE / 4 * 3);
-        assert_eq!(exact(f64::from_bits(0x3fe5_5555_5555_5555)), ONE / 3 * 2 - (1 << 66));
+        assert_eq!(exact(f64::from_bits(0x3fe5_5555_5555_5555)), ONE / 3 * 2 - (1 << 67));
         assert_eq!(exact(f64::MIN_POSITIVE), 0);
         for k in 0..=12 {
             let square = ExactSquare::new([0.5, 0.25], 1.0 / f64::from(1 << k));

@@ -28,7 +28,7 @@
 //! let surface = Surface::build(cage, SurfaceOptions::default())?;
 //!
 //! // Two rings around each of the eight points.
-//! let complex = PatchComplex::new(&surface, 2)?;
+//! let complex = PatchComplex::new(surface.layout(), 2, None)?;
 //! assert_eq!(complex.num_patches(), 6 * (4 * 2 * 3));
 //! let rims = complex.edges().filter(|(_, edge)| edge.kind == EdgeKind::Rim).count();
 //! assert_eq!(rims, 8 * 3 * 2, "eight holes, each in three sectors with two sides");
@@ -50,8 +50,11 @@ mod piece;
 
 pub use border::Border;
 
+use std::sync::Arc;
+
+use crate::cap::CapError;
 use crate::mesh::{FaceId, HalfEdgeId, VertexId};
-use crate::surface::{PatchPlace, QuadId};
+use crate::surface::{Layout, PatchPlace, QuadId};
 use exact::Lines;
 use piece::Pieces;
 
@@ -225,9 +228,12 @@ impl PatchEdge {
 }
 
 /// Why there is no complex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComplexError {
+    /// There are no such caps.
+    #[error(transparent)]
+    Cap(#[from] CapError),
     /// The rings become too small to be told apart.
     #[error("{rings} rings are too many for a complex, whose numbers have room for {most}")]
     TooDeep {
@@ -237,13 +243,15 @@ pub enum ComplexError {
         most: usize,
     },
     /// Patches or edges cannot be numbered with 32 bits.
-    #[error("there are more than 2^32 patches or edges")]
+    #[error("the patches or the edges are too many to be numbered with 32 bits")]
     TooMany,
 }
 
-/// All patches of a surface to some depth, and the edges and vertices where they meet.
+/// All patches of a surface to some depth, and the edges and vertices where they meet: the same for all
+/// surfaces over one layout.
 #[derive(Clone, Debug)]
 pub struct PatchComplex {
+    layout: Arc<Layout>,
     places: Vec<PatchPlace>,
     pieces: Pieces,
     /// Of every extraordinary point.
@@ -272,6 +280,11 @@ impl Lists {
 }
 
 impl PatchComplex {
+    /// The layout of the surfaces that have this complex.
+    pub fn layout(&self) -> &Arc<Layout> {
+        &self.layout
+    }
+
     /// The number of patches.
     pub fn num_patches(&self) -> usize {
         self.places.len()
@@ -344,7 +357,7 @@ impl PatchComplex {
     }
 
     /// The patch at (u,v) of `quad`, which are clamped to 0..1; on a border between patches of one quad the
-    /// one that [`Surface::eval`](crate::Surface::eval) asks. `None` if there is no surface, no such quad, in
+    /// one that [`Surface::eval_as`](crate::Surface::eval_as) asks. `None` if there is no surface, no such quad, in
     /// a hole behind rings without a cap, and if a parameter is NaN.
     pub fn locate(&self, quad: QuadId, u: f64, v: f64) -> Option<PatchId> {
         self.pieces.patch_at(&self.lines, quad.0 as usize, [u, v]).map(PatchId)
