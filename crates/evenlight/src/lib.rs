@@ -44,7 +44,7 @@
 //!
 //! let triangles = tessellate(&surface, 8)?;
 //! assert_eq!(triangles.triangles.len(), 6 * 8 * 8 * 2);
-//! let report = curvature_report(&surface, 6);
+//! let report = curvature_report(&surface, 6)?;
 //! assert!(report.jumps.parametric < 1e-11, "all patches join C2");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -363,7 +363,7 @@ fn check_place(
     assert!(norm(sub(found, expected)) <= 1e-14 * norm(expected).max(1.0), "{name} {place:?}");
 }
 
-/// Whether a place is in the inside of the hole behind so many rings.
+/// Whether a place is in the hole behind so many rings.
 fn is_in_hole(surface: &Surface, rings: usize, quad: QuadId, [u, v]: [f64; 2]) -> bool {
     let mut points = surface.extraordinary_points().iter().enumerate();
     points.any(|(point, of_point)| {
@@ -373,7 +373,7 @@ fn is_in_hole(surface: &Surface, rings: usize, quad: QuadId, [u, v]: [f64; 2]) -
                 (step[0] * line[0] + step[1] * line[1]) / (line[0] * line[0] + line[1] * line[1])
             });
             let hole = surface.rings(point).unwrap().sigma().powi(rings as i32);
-            a.min(b) >= 0.0 && a.max(b) <= hole && (rings == 0 || a.max(b) < hole)
+            a.min(b) >= 0.0 && a.max(b) <= hole
         })
     })
 }

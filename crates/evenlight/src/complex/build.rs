@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::carrier::{Carrier, Meeting, QuadOfFace, Side};
-use super::exact::{Exact, Lines, ONE, ratio};
+use super::exact::{Exact, Lines, MAX_RINGS, ONE, ratio};
 use super::pair::{Pair, pairs};
-use super::piece::{Pieces, rectangle};
+use super::piece::{Numbers, rectangle};
 use super::{
     ComplexError, EdgeKind, EdgePlace, EdgeUse, Lists, PatchComplex, PatchEdge, PatchEdgeId,
     PatchId, PatchVertexId, VertexPlace,
@@ -33,7 +33,7 @@ impl PatchComplex {
         caps: Option<CapOptions>,
     ) -> Result<Self, ComplexError> {
         let caps = caps.map(|options| CapPlan::new(layout, options)).transpose()?;
-        Self::with_caps(layout.clone(), rings, caps.as_ref())
+        Self::with_caps(layout.clone(), rings, caps.map(Arc::new))
     }
 
     /// [`PatchComplex::new`] with the layout and the caps of a surface.
@@ -42,16 +42,25 @@ impl PatchComplex {
     ///
     /// As of [`PatchComplex::new`].
     pub fn of<const N: usize>(surface: &Surface<N>, rings: usize) -> Result<Self, ComplexError> {
-        Self::with_caps(surface.layout().clone(), rings, surface.cap_plan().map(|plan| &**plan))
+        Self::with_caps(surface.layout().clone(), rings, surface.cap_plan().cloned())
+    }
+
+    /// So many rings can have a complex around every point of a layout.
+    pub fn most_rings(layout: &Layout) -> usize {
+        let points = 0..layout.extraordinary_points().len();
+        let lines = points.map(|point| Lines::new(layout.rules(point).rules().rules(), 0, 0));
+        lines.map(|lines| lines.most_rings()).fold(MAX_RINGS, usize::min)
     }
 
     fn with_caps(
         layout: Arc<Layout>,
         rings: usize,
-        caps: Option<&CapPlan>,
+        caps: Option<Arc<CapPlan>>,
     ) -> Result<Self, ComplexError> {
-        let lines = lines_of_points(&layout, rings, caps)?;
-        let places: Vec<PatchPlace> = layout.places(rings, caps).collect();
+        let rings = caps.as_ref().map_or(rings, |caps| rings.min(caps.options.rings));
+        let caps = caps.filter(|caps| caps.options.rings == rings);
+        let lines = lines_of_points(&layout, rings, caps.as_deref())?;
+        let places: Vec<PatchPlace> = layout.places(rings, caps.as_deref()).collect();
         if places.len() >= MOST_PATCHES {
             return Err(ComplexError::TooMany);
         }
@@ -64,13 +73,15 @@ impl PatchComplex {
         let ends = pairs.iter().zip(vertices);
         let edges: Vec<PatchEdge> =
             ends.map(|(pair, vertices)| edge(&layout, &sides, pair, vertices)).collect();
+        let points = 0..layout.extraordinary_points().len();
+        let rules = points.map(|point| layout.rules(point).rules().rules());
         Ok(Self {
-            pieces: Pieces::of(&places, layout.num_quads()),
+            numbers: Numbers::of(&places, rings, rules),
             edges_of_sides: edges_of_sides(&edges, places.len()),
             edges_of_vertices: edges_of_vertices(&edges, meetings.len()),
             vertices: meetings.into_iter().map(VertexPlace::from).collect(),
             layout,
-            lines,
+            caps,
             places,
             edges,
         })
@@ -83,20 +94,17 @@ const MOST_PATCHES: usize = u32::MAX as usize / 4;
 /// The ends of so many edges can be.
 const MOST_EDGES: usize = u32::MAX as usize / 2;
 
-/// The lines around every point to this depth.
+/// The lines around every point, of these rings and of the caps behind them.
 fn lines_of_points(
     layout: &Layout,
     rings: usize,
     caps: Option<&CapPlan>,
 ) -> Result<Vec<Lines>, ComplexError> {
-    let most = caps.map_or(rings, |caps| rings.min(caps.options.rings));
-    let closing = caps.filter(|caps| caps.options.rings <= rings);
     let of_point = |point: usize| {
-        let cap_split = closing.map_or(0, |caps| caps.rules(point).split());
-        let lines = Lines::new(layout.rules(point).rules().rules(), most, cap_split);
-        let possible = lines.most_rings();
-        let error = ComplexError::TooDeep { rings: most, most: possible };
-        if most > possible { Err(error) } else { Ok(lines) }
+        let cap_split = caps.map_or(0, |caps| caps.rules(point).split());
+        let lines = Lines::new(layout.rules(point).rules().rules(), rings, cap_split);
+        let most = lines.most_rings();
+        if rings > most { Err(ComplexError::TooDeep { rings, most }) } else { Ok(lines) }
     };
     (0..layout.extraordinary_points().len()).map(of_point).collect()
 }

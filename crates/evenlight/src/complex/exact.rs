@@ -70,8 +70,6 @@ pub(super) struct ExactSquare {
 pub(super) type Rectangle = [[Exact; 2]; 2];
 
 impl ExactSquare {
-    pub(super) const WHOLE: Self = Self { origin: [0; 2], level: 0 };
-
     /// The square of this origin and size, which are sums of few powers of two.
     pub(super) fn new(origin: [f64; 2], size: f64) -> Self {
         let level = (ONE / exact(size).max(1)).ilog2();
@@ -80,33 +78,6 @@ impl ExactSquare {
 
     pub(super) fn size(self) -> Exact {
         ONE >> self.level
-    }
-
-    /// The number of the quarter in which a place is; on a line between two the lower.
-    pub(super) fn quarter_of(self, at: [Exact; 2]) -> usize {
-        let half = self.size() / 2;
-        match [0, 1].map(|d| at[d] - self.origin[d] > half) {
-            [false, false] => 0,
-            [true, false] => 1,
-            [true, true] => 2,
-            [false, true] => 3,
-        }
-    }
-
-    /// The number of the quarter that is or has a smaller square.
-    pub(super) fn quarter_of_square(self, inside: Self) -> usize {
-        self.quarter_of(inside.origin.map(|x| x + 1))
-    }
-
-    /// A quarter of the square; they are numbered like corners.
-    pub(super) fn quarter(self, number: usize) -> Self {
-        let half = self.size() / 2;
-        let [right, up] = [number == 1 || number == 2, number >= 2];
-        let origin = [
-            self.origin[0] + if right { half } else { 0 },
-            self.origin[1] + if up { half } else { 0 },
-        ];
-        Self { origin, level: self.level + 1 }
     }
 
     /// The rectangle that the part `[[a0, a1], [b0, b1]]` of a sector is, whose point is at `corner`.
@@ -120,18 +91,6 @@ impl ExactSquare {
             _ => [b, turned(a)],
         };
         [u.map(|x| self.origin[0] + x), v.map(|x| self.origin[1] + x)]
-    }
-
-    /// The sector parameters of a place of the square.
-    pub(super) fn to_sector(self, corner: u8, at: [Exact; 2]) -> [Exact; 2] {
-        let [u, v] = [0, 1].map(|d| at[d] - self.origin[d]);
-        let size = self.size();
-        match corner {
-            0 => [u, v],
-            1 => [v, size - u],
-            2 => [size - u, size - v],
-            _ => [size - v, u],
-        }
     }
 }
 
@@ -147,26 +106,9 @@ pub(super) struct Lines {
     cuts: Option<Cuts>,
 }
 
-/// A patch of a sector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum InSector {
-    /// Ring (from 0) and number of the patch.
-    Ring(usize, usize),
-    /// The number of the patch in the cap.
-    Cap(usize),
-}
-
 impl Lines {
     pub(super) fn new(rules: &Rules, rings: usize, cap_split: usize) -> Self {
         Self { split: rules.split, rings, cap_split, cuts: rules.cuts().cloned() }
-    }
-
-    pub(super) fn rings(&self) -> usize {
-        self.rings
-    }
-
-    pub(super) fn patches_per_sector(&self) -> usize {
-        3 * self.split * self.split
     }
 
     /// The most rings that have places.
@@ -219,48 +161,6 @@ impl Lines {
     pub(super) fn cap_patch(&self, level: u32, which: usize) -> Rectangle {
         [which / self.cap_split, which % self.cap_split]
             .map(|k| [k, k + 1].map(|k| self.cap_line(level, k)))
-    }
-
-    /// The patch in which (a,b) is: on a line between two the one nearer to the point; `None` in a hole
-    /// without cap.
-    pub(super) fn patch_at(&self, level: u32, at: [Exact; 2]) -> Option<InSector> {
-        let hole = self.hole(level, self.rings);
-        let largest = at[0].max(at[1]);
-        if largest > hole {
-            let ring = (1..self.rings).find(|&ring| largest > self.hole(level, ring));
-            let ring = ring.unwrap_or(self.rings) - 1;
-            let inner = self.line(level, ring, self.split);
-            return Some(self.ring_patch_at(level, ring, at, at.map(|x| x > inner)));
-        }
-        if self.cap_split > 0 {
-            let [i, j] = at.map(|x| {
-                (1..self.cap_split).filter(|&line| x > self.cap_line(level, line)).count()
-            });
-            return Some(InSector::Cap(i * self.cap_split + j));
-        }
-        // The rim belongs to the last ring.
-        let on_rim = largest == hole && self.rings > 0;
-        on_rim.then(|| self.ring_patch_at(level, self.rings - 1, at, at.map(|x| x == hole)))
-    }
-
-    /// The patch of a ring in which a place is that lies beyond the hole in these parameters.
-    fn ring_patch_at(
-        &self,
-        level: u32,
-        ring: usize,
-        at: [Exact; 2],
-        beyond: [bool; 2],
-    ) -> InSector {
-        let square = match beyond {
-            [true, true] => 0,
-            [true, false] => 1,
-            _ => 2,
-        };
-        let [i, j] = [0, 1].map(|k| {
-            let first = if beyond[k] { self.split } else { 0 };
-            (1..self.split).filter(|&part| at[k] > self.line(level, ring, first + part)).count()
-        });
-        InSector::Ring(ring, (square * self.split + i) * self.split + j)
     }
 }
 
@@ -317,29 +217,6 @@ mod tests {
                     }
                 }
             }
-        }
-    }
-
-    #[test]
-    fn a_place_is_in_the_patch_that_is_found_for_it() {
-        for lines in all_lines() {
-            let size = ONE >> 2;
-            let mut seen = 0;
-            for k in 0..1000 {
-                let at = [k * 7919 % 1000, k].map(|x: Exact| size / 999 * x);
-                let Some(found) = lines.patch_at(2, at) else { continue };
-                let InSector::Ring(ring, which) = found else { panic!("there is no cap") };
-                let part = which % (lines.split * lines.split);
-                let square = [[1, 1], [1, 0], [0, 1]][which / (lines.split * lines.split)];
-                let first = [
-                    square[0] * lines.split + part / lines.split,
-                    square[1] * lines.split + part % lines.split,
-                ];
-                let [a, b] = lines.ring_patch(2, ring, first);
-                assert!(a[0] <= at[0] && at[0] <= a[1] && b[0] <= at[1] && at[1] <= b[1]);
-                seen += 1;
-            }
-            assert_eq!(seen, 999, "all but the centre");
         }
     }
 }

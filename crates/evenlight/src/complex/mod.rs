@@ -54,9 +54,8 @@ use std::sync::Arc;
 
 use crate::cap::CapError;
 use crate::mesh::{FaceId, HalfEdgeId, VertexId};
-use crate::surface::{Layout, PatchPlace, QuadId};
-use exact::Lines;
-use piece::Pieces;
+use crate::surface::{CapPlan, Layout, PatchPlace, QuadId};
+use piece::Numbers;
 
 /// The number of a patch, in the order of [`Surface::patch_places`](crate::Surface::patch_places).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -252,10 +251,10 @@ pub enum ComplexError {
 #[derive(Clone, Debug)]
 pub struct PatchComplex {
     layout: Arc<Layout>,
+    /// The caps, if there are patches of them.
+    caps: Option<Arc<CapPlan>>,
     places: Vec<PatchPlace>,
-    pieces: Pieces,
-    /// Of every extraordinary point.
-    lines: Vec<Lines>,
+    numbers: Numbers,
     edges: Vec<PatchEdge>,
     /// The edges of every side of every patch, counter-clockwise.
     edges_of_sides: Lists,
@@ -357,9 +356,10 @@ impl PatchComplex {
     }
 
     /// The patch at (u,v) of `quad`, which are clamped to 0..1; on a border between patches of one quad the
-    /// one that [`Surface::eval_as`](crate::Surface::eval_as) asks. `None` if there is no surface, no such quad, in
-    /// a hole behind rings without a cap, and if a parameter is NaN.
+    /// one that [`Surface::eval_as`](crate::Surface::eval_as) asks. `None` if there is no surface, no such
+    /// quad, in a hole behind rings without a cap, on its rim, and if a parameter is NaN.
     pub fn locate(&self, quad: QuadId, u: f64, v: f64) -> Option<PatchId> {
-        self.pieces.patch_at(&self.lines, quad.0 as usize, [u, v]).map(PatchId)
+        let place = self.layout.place_at(quad, [u, v], self.caps.as_deref())?;
+        self.numbers.number(&place).map(PatchId)
     }
 }

@@ -1,107 +1,79 @@
-//! Where patches lie, exactly, and which of them has a place.
-//!
-//! The patches of a quad follow each other piece by piece: a regular patch, or the rings and the cap of
-//! one sector. The pieces are the leaves of a tree of squares, in its order, so that a place is found by
-//! going down the tree.
+//! The numbers of patches: which patch a source is.
 
-use super::exact::{Exact, ExactSquare, InSector, Lines, Rectangle, exact};
+use super::exact::{ExactSquare, Lines, Rectangle};
 use crate::scheme::Rules;
-use crate::surface::{PatchPlace, RingPatch, Source};
+use crate::surface::{PatchPlace, RingPatch, Role, Source};
 
-/// A piece of a quad with at least one patch.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
-    square: ExactSquare,
-    /// The first of its patches.
-    first: u32,
-    kind: Kind,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Regular,
-    /// The sector of a point, which is at this corner of the square.
-    Sector {
-        point: u32,
-        corner: u8,
-    },
-}
-
-/// The pieces of all quads.
+/// The patches of a complex by what they are made of. Those of one sector follow each other, ring by ring.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Pieces {
-    pieces: Vec<Piece>,
-    /// The first piece of every quad, and the number of all.
-    first: Vec<u32>,
+pub(super) struct Numbers {
+    /// The rings around each point, in front of a cap or not.
+    rings: usize,
+    /// The patch of every net.
+    of_nets: Vec<u32>,
+    /// The first of the sectors of every point.
+    first_sectors: Vec<usize>,
+    /// The first patch of every sector.
+    of_sectors: Vec<u32>,
+    /// The patches in one sector of a ring around every point.
+    per_sector: Vec<usize>,
 }
 
-impl Pieces {
-    /// The pieces of patches that stand in the order of their quads.
-    pub(super) fn of(places: &[PatchPlace], num_quads: usize) -> Self {
-        let (mut pieces, mut first): (Vec<Piece>, _) = (Vec::new(), vec![0]);
-        for (place, number) in places.iter().zip(0..) {
-            let quad = place.quad.0 as usize;
-            let is_new_quad = first.len() <= quad;
-            first.resize(quad + 1, pieces.len() as u32);
-            let (square, kind) = square_of(place);
-            let last = pieces.last().filter(|_| !is_new_quad);
-            if last.is_none_or(|piece| (piece.square, piece.kind) != (square, kind)) {
-                pieces.push(Piece { square, first: number, kind });
-            }
-        }
-        first.resize(num_quads + 1, pieces.len() as u32);
-        Self { pieces, first }
-    }
+/// No patch: that of a net or sector in a face without a surface.
+const NONE: u32 = u32::MAX;
 
-    /// The patch at (u,v) of a quad, which are clamped to 0..1; on a border one of them.
-    pub(super) fn patch_at(&self, lines: &[Lines], quad: usize, uv: [f64; 2]) -> Option<u32> {
-        let end = *self.first.get(quad + 1)? as usize;
-        let mut pieces = &self.pieces[self.first[quad] as usize..end];
-        if uv.iter().any(|x| x.is_nan()) {
-            return None;
+impl Numbers {
+    /// The numbers of patches with `rings` rings around points with these rules.
+    pub(super) fn of<'a>(
+        places: &[PatchPlace],
+        rings: usize,
+        rules: impl Iterator<Item = &'a Rules>,
+    ) -> Self {
+        let (mut first_sectors, mut per_sector, mut count) = (Vec::new(), Vec::new(), 0);
+        for rules in rules {
+            first_sectors.push(count);
+            per_sector.push(rules.patches_per_sector());
+            count += rules.valence;
         }
-        let at = uv.map(|x| exact(x.clamp(0.0, 1.0)));
-        let mut square = ExactSquare::WHOLE;
-        loop {
-            let piece = pieces.first()?;
-            if piece.square == square {
-                return piece.patch_at(lines, at);
-            }
-            let quarter = square.quarter_of(at);
-            let number = |piece: &Piece| square.quarter_of_square(piece.square);
-            let start = pieces.partition_point(|piece| number(piece) < quarter);
-            let end = pieces.partition_point(|piece| number(piece) <= quarter);
-            pieces = &pieces[start..end];
-            square = square.quarter(quarter);
-        }
-    }
-}
-
-impl Piece {
-    fn patch_at(&self, lines: &[Lines], at: [Exact; 2]) -> Option<u32> {
-        let Kind::Sector { point, corner } = self.kind else { return Some(self.first) };
-        let lines = &lines[point as usize];
-        let at = self.square.to_sector(corner, at);
-        let number = match lines.patch_at(self.square.level, at)? {
-            InSector::Ring(ring, which) => ring * lines.patches_per_sector() + which,
-            InSector::Cap(which) => lines.rings() * lines.patches_per_sector() + which,
+        let mut numbers = Self {
+            rings,
+            of_nets: Vec::new(),
+            first_sectors,
+            of_sectors: vec![NONE; count],
+            per_sector,
         };
-        Some(self.first + number as u32)
+        for (place, number) in places.iter().zip(0..) {
+            match place.source {
+                Source::Net(net) => {
+                    let net = net as usize;
+                    let len = numbers.of_nets.len().max(net + 1);
+                    numbers.of_nets.resize(len, NONE);
+                    numbers.of_nets[net] = number;
+                }
+                Source::Ring(patch) | Source::Cap(patch) => {
+                    let sector = numbers.first_sectors[patch.point] + patch.sector;
+                    let first = &mut numbers.of_sectors[sector];
+                    *first = number.min(*first);
+                }
+            }
+        }
+        numbers
     }
-}
 
-/// The square of the piece that a patch is of.
-fn square_of(place: &PatchPlace) -> (ExactSquare, Kind) {
-    match place.source {
-        Source::Net(_) => {
-            let [[u0, u1], [v0, _]] = place.domain;
-            (ExactSquare::new([u0, v0], u1 - u0), Kind::Regular)
-        }
-        Source::Ring(RingPatch { point, square, corner, .. })
-        | Source::Cap(RingPatch { point, square, corner, .. }) => {
-            let kind = Kind::Sector { point: point as u32, corner };
-            (ExactSquare::new(square.origin, square.size), kind)
-        }
+    /// The number of the patch at a place of the layout; `None` if it is in a deeper ring.
+    pub(super) fn number(&self, place: &PatchPlace) -> Option<u32> {
+        let (first, further) = match place.source {
+            Source::Net(net) => (*self.of_nets.get(net as usize)?, 0),
+            Source::Ring(patch) | Source::Cap(patch) => {
+                let RingPatch { point, sector, ring, which, .. } = patch;
+                if place.role != Role::Cap && ring >= self.rings {
+                    return None;
+                }
+                let first = self.of_sectors[self.first_sectors[point] + sector];
+                (first, ring * self.per_sector[point] + which)
+            }
+        };
+        (first != NONE).then(|| first + further as u32)
     }
 }
 
@@ -111,14 +83,19 @@ pub(super) fn rectangle<'a>(
     lines: &[Lines],
     rules: impl Fn(usize) -> &'a Rules,
 ) -> Rectangle {
-    let (square, _) = square_of(place);
     match place.source {
-        Source::Net(_) => square.origin.map(|x| [x, x + square.size()]),
-        Source::Ring(RingPatch { point, ring, which, corner, .. }) => {
+        Source::Net(_) => {
+            let [[u0, u1], [v0, _]] = place.domain;
+            let square = ExactSquare::new([u0, v0], u1 - u0);
+            square.origin.map(|x| [x, x + square.size()])
+        }
+        Source::Ring(RingPatch { point, ring, which, square, corner, .. }) => {
+            let square = ExactSquare::new(square.origin, square.size);
             let first = rules(point).patch_lines(which);
             square.of_sector(corner, lines[point].ring_patch(square.level, ring, first))
         }
-        Source::Cap(RingPatch { point, which, corner, .. }) => {
+        Source::Cap(RingPatch { point, which, square, corner, .. }) => {
+            let square = ExactSquare::new(square.origin, square.size);
             square.of_sector(corner, lines[point].cap_patch(square.level, which))
         }
     }

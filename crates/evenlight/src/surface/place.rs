@@ -71,18 +71,8 @@ pub(crate) struct RingPatch {
 /// One polynomial patch of the surface and where it lies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedPatch<const N: usize = 3> {
-    /// What it is part of.
-    pub role: Role,
-    /// The parametric quad that it lies in.
-    pub quad: QuadId,
-    /// The part of that quad: [[u0, u1], [v0, v1]]; the patch's own (u,v) runs over it in the
-    /// same directions.
-    pub domain: [[f64; 2]; 2],
-    /// The extraordinary point it belongs to, as an index into
-    /// [`Surface::extraordinary_points`](super::Surface::extraordinary_points); `None` for regular patches.
-    pub point: Option<usize>,
-    /// The sector of that point, from 0.
-    pub sector: Option<usize>,
+    /// What it is part of, and where it lies.
+    pub place: PatchPlace,
     /// The polynomial.
     pub patch: Patch<N>,
 }
