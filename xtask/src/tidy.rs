@@ -10,7 +10,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 17] = [
+const LAYERS: [&str; 18] = [
     "point",
     "angle",
     "task",
@@ -24,6 +24,7 @@ const LAYERS: [&str; 17] = [
     "cap",
     "basis",
     "surface",
+    "complex",
     "tessellate",
     "analyse",
     "io",

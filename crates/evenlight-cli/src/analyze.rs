@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use clap::Args;
 use evenlight::analyse::caps::{CapReport, cap_report};
-use evenlight::analyse::continuity::Jumps;
 use evenlight::analyse::curvature::{
     CurvatureReport, PointReport, RingCurvature, curvature_report,
 };
+use evenlight::analyse::defect::Defect;
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::cap::CapKind;
 use evenlight::surface::ExtraordinaryPoint;
@@ -104,7 +104,7 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
         progress.stage(format!("Analysing {}", scheme.name()));
         let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;
-        let mut analysis = Analysis::of(surface, args.rings.into());
+        let mut analysis = Analysis::of(surface, args.rings.into())?;
         analysis.close(cap, args.rings.into())?;
         analyses.push(analysis);
         progress.step();
@@ -128,10 +128,11 @@ pub struct Analysis {
 
 impl Analysis {
     /// Measures `surface` over `rings` rings around every extraordinary point.
-    pub fn of(surface: Surface, rings: usize) -> Self {
-        let report = curvature_report(&surface, rings);
+    pub fn of(surface: Surface, rings: usize) -> Result<Self, Failure> {
+        let report = curvature_report(&surface, rings)
+            .map_err(|error| Failure::Unusable(error.to_string()))?;
         let shapes = shape(&surface, rings);
-        Self { surface, report, shapes, caps: Vec::new() }
+        Ok(Self { surface, report, shapes, caps: Vec::new() })
     }
 
     /// Closes the surface and measures the caps too.
@@ -267,7 +268,7 @@ fn point_row(scheme: &str, Point { place, report, shape, .. }: Point) -> Vec<Str
 pub fn jump_table(analyses: &[Analysis]) -> Table {
     let mut table = Table::new(&["all borders", "position jump", "tangent jump", "curvature jump"]);
     for analysis in analyses {
-        let Jumps { position, tangent_plane, curvature, .. } = analysis.report.jumps;
+        let Defect { position, tangent_plane, curvature } = analysis.report.jumps.defect;
         let numbers = [position, tangent_plane, curvature].map(short);
         table.push([analysis.scheme().to_owned()].into_iter().chain(numbers));
     }

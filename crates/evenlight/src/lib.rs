@@ -44,7 +44,7 @@
 //!
 //! let triangles = tessellate(&surface, 8)?;
 //! assert_eq!(triangles.triangles.len(), 6 * 8 * 8 * 2);
-//! let report = curvature_report(&surface, 6);
+//! let report = curvature_report(&surface, 6)?;
 //! assert!(report.jumps.parametric < 1e-11, "all patches join C2");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -63,6 +63,7 @@
 //! | [`cap`] | finitely many patches instead of all further rings |
 //! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
+//! | [`complex`] | its patches, and the edges and vertices where they meet |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
 //! | [`io`] | OBJ, PLY, USD, glTF, STL, BezierView |
@@ -77,6 +78,7 @@ pub mod analyse;
 mod angle;
 pub mod basis;
 pub mod cap;
+pub mod complex;
 mod dense;
 pub mod io;
 pub mod mesh;

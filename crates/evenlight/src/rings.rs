@@ -699,7 +699,7 @@ fn frame_shape<const N: usize>(jet: &Jet<N>, sigma: f64, zeta: f64) -> Shape {
 /// The ring of a place (a,b) of a sector other than its centre, and the place in it, as if it were
 /// ring 0.
 #[inline]
-fn in_ring([a, b]: [f64; 2], sigma: f64) -> (usize, [f64; 2]) {
+pub(crate) fn in_ring([a, b]: [f64; 2], sigma: f64) -> (usize, [f64; 2]) {
     let largest = a.max(b);
     if sigma != 0.5 || largest < f64::MIN_POSITIVE {
         let ring = ring_of(largest, sigma);

@@ -19,7 +19,7 @@ fn all_borders_of_all_cages_are_c2() {
                 assert_ne!(scheme, SchemeKind::CatmullClark, "{name}");
                 continue;
             };
-            let jumps = continuity(&surface, 6, 3).all;
+            let jumps = continuity(&surface, 6, 3).unwrap().all;
             assert!(jumps.parametric <= 1e-11, "{name}, {}: {jumps:?}", scheme.name());
         }
     }

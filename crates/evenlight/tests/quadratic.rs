@@ -430,7 +430,7 @@ fn rings_join_c2_with_each_other_and_with_the_surround_whatever_q() {
         for scheme in SCHEMES {
             let mut surface = common::surface(&common::cage(name), scheme);
             for point in 0..surface.extraordinary_points().len() {
-                let jumps = continuity(&surface, 6, 3).all;
+                let jumps = continuity(&surface, 6, 3).unwrap().all;
                 assert!(jumps.parametric <= 1e-11, "{name}: {jumps:?}");
                 let q = *surface.rings(point).unwrap().quadratic().unwrap();
                 let wider =
@@ -438,7 +438,7 @@ fn rings_join_c2_with_each_other_and_with_the_surround_whatever_q() {
                 assert!(surface.set_quadratic(point, &wider));
                 assert_eq!(surface.rings(point).unwrap().center(), wider.center());
             }
-            let jumps = continuity(&surface, 6, 3).all;
+            let jumps = continuity(&surface, 6, 3).unwrap().all;
             assert!(jumps.parametric <= 1e-11, "{name}, changed: {jumps:?}");
         }
     }

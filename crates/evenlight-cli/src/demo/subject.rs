@@ -79,7 +79,7 @@ impl Subject {
         let analyse = |scheme| -> Result<Analysis, Failure> {
             let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
             let surface = input::build(Arc::clone(&cage), options, source)?;
-            Ok(Analysis::of(surface, RINGS))
+            Analysis::of(surface, RINGS)
         };
         let [cc, eg, qas4] = SCHEMES.map(analyse);
         let analyses = [cc?, eg?, qas4?];

@@ -259,9 +259,7 @@ impl<const N: usize> Cap<N> {
 
     /// [`Cap::eval`] of what is wanted alone.
     pub(crate) fn eval_as<A: Answer<N>>(&self, rings: &Rings<N>, s: usize, [a, b]: [f64; 2]) -> A {
-        let m = self.space.pieces;
-        let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
-        let which = part(a) * m + part(b);
+        let which = self.space.patch_at([a, b]);
         if a.max(b) == 0.0 && plain::is_plain(rings.rules()) {
             // Derivatives may be parallel, and curvature is not that of the other sectors.
             let jet: Jet<N> = self.eval_in_patch(rings, s, which, [a, b]);
@@ -313,6 +311,16 @@ impl ValenceCap {
             Self::Plain(cap) => cap.space(),
             Self::Fair(cap) => cap.space(),
         }
+    }
+
+    /// Along each side of a sector so many patches.
+    pub(crate) fn split(&self) -> usize {
+        self.space().pieces
+    }
+
+    /// The number of the patch in which a place of the hole is.
+    pub(crate) fn patch_at(&self, in_hole: [f64; 2]) -> usize {
+        self.space().patch_at(in_hole)
     }
 
     /// [`Cap::patches_per_sector`].

@@ -38,7 +38,7 @@ pub fn write(
     let mut caps: Vec<Patch> = Vec::new();
     let mut has_regular = false;
     for placed in patches {
-        match placed.role {
+        match placed.place.role {
             Role::Ring(k) => rings.entry(k + 1).or_default().push(placed.patch),
             Role::Cap => caps.push(placed.patch),
             Role::Regular => {

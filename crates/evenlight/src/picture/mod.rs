@@ -29,7 +29,6 @@ mod dice;
 mod graph;
 mod legend;
 mod panel;
-mod pieces;
 mod raster;
 mod shade;
 

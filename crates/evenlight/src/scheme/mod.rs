@@ -18,7 +18,7 @@ pub use contraction::{Contraction, ContractionError, Variant};
 pub use fan::MAX_FAIR_FACES;
 pub(crate) use fan::{FairFan, FanLimit, fair_rules, is_fair, rules as fan_rules};
 pub(crate) use guided::{guide_monomials, sampled_guide};
-pub(crate) use rules::{PatchParameters, Row, Rules};
+pub(crate) use rules::{Cuts, PatchParameters, Row, Rules};
 pub(crate) use subdominant::Subdominant;
 
 use crate::net::{CNet, DNet, Spline};

@@ -43,12 +43,12 @@ pub struct PatchPlace {
     pub point: Option<usize>,
     /// The sector of that point, from 0.
     pub sector: Option<usize>,
-    pub(super) source: Source,
+    pub(crate) source: Source,
 }
 
 /// What a patch is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Source {
+pub(crate) enum Source {
     /// The number of its control net.
     Net(u32),
     /// A patch of a ring around an extraordinary point.
@@ -60,40 +60,30 @@ pub(super) enum Source {
 /// Patch `which` of a sector of a ring (from 0), the sector's square in its quad and the corner of
 /// the square at which the extraordinary point is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RingPatch {
-    pub(super) point: usize,
-    pub(super) sector: usize,
-    pub(super) ring: usize,
-    pub(super) which: usize,
-    pub(super) square: Square,
-    pub(super) corner: u8,
+pub(crate) struct RingPatch {
+    pub(crate) point: usize,
+    pub(crate) sector: usize,
+    pub(crate) ring: usize,
+    pub(crate) which: usize,
+    pub(crate) square: Square,
+    pub(crate) corner: u8,
 }
 
 /// One polynomial patch of the surface and where it lies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedPatch<const N: usize = 3> {
-    /// What it is part of.
-    pub role: Role,
-    /// The parametric quad that it lies in.
-    pub quad: QuadId,
-    /// The part of that quad: [[u0, u1], [v0, v1]]; the patch's own (u,v) runs over it in the
-    /// same directions.
-    pub domain: [[f64; 2]; 2],
-    /// The extraordinary point it belongs to, as an index into
-    /// [`Surface::extraordinary_points`](super::Surface::extraordinary_points); `None` for regular patches.
-    pub point: Option<usize>,
-    /// The sector of that point, from 0.
-    pub sector: Option<usize>,
+    /// What it is part of, and where it lies.
+    pub place: PatchPlace,
     /// The polynomial.
     pub patch: Patch<N>,
 }
 
 /// A square of a parametric quad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Square {
-    pub(super) quad: QuadId,
-    pub(super) origin: [f64; 2],
-    pub(super) size: f64,
+pub(crate) struct Square {
+    pub(crate) quad: QuadId,
+    pub(crate) origin: [f64; 2],
+    pub(crate) size: f64,
 }
 
 impl Square {

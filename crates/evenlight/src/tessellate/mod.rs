@@ -51,7 +51,7 @@ use crate::point::{Point, Vector, add, cross, dot, norm, sub, unit};
 use crate::surface::{QuadId, Surface};
 use crate::task::{Cancelled, Steps};
 use nodes::{Grid, Nodes};
-use samples::samples;
+use samples::{NodePlace, samples};
 use sides::Sides;
 
 /// Triangles on the limit surface, with what the surface says at their vertices.
@@ -164,8 +164,9 @@ pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, Tessel
     let sides = Sides::number(surface, &nodes)?;
     let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
     mesh.side_vertices = sides.nodes().to_vec();
-    mesh.origins = origins(surface, &nodes, &sides);
-    mesh.evaluate(surface)?;
+    let places = places(surface, &nodes, &sides);
+    mesh.origins = places.iter().map(|place| place.origin()).collect();
+    mesh.evaluate(surface, &places)?;
     mesh.fill_what_is_missing(surface, &nodes, &sides);
     mesh.triangulate(surface, &nodes, &sides);
     Ok(mesh)
@@ -188,20 +189,21 @@ fn quad_of(surface: &Surface, grid: Grid) -> QuadId {
     surface.quad(grid.face, grid.corner).expect("the grids are those of the surface's quads")
 }
 
-/// The first grid, in the order of the quads, in which each side lies.
-fn origins(surface: &Surface, nodes: &Nodes, sides: &Sides) -> Vec<VertexOrigin> {
-    const UNKNOWN: VertexOrigin = VertexOrigin { quad: QuadId(u32::MAX), uv: [0.0; 2] };
-    let mut origins = vec![UNKNOWN; nodes.len() + sides.nodes().len()];
+/// The first grid, in the order of the quads, in which each side lies, and the node there.
+fn places(surface: &Surface, nodes: &Nodes, sides: &Sides) -> Vec<NodePlace> {
+    const UNKNOWN: NodePlace = NodePlace { quad: QuadId(u32::MAX), segments: 1, node: [0; 2] };
+    let mut places = vec![UNKNOWN; nodes.len() + sides.nodes().len()];
     for grid in nodes.grids() {
         let (quad, sides) = (quad_of(surface, grid), sides.of_face(grid.face));
         for (i, j) in grid.nodes() {
-            let origin = &mut origins[sides.side(nodes.node(grid, i, j)) as usize];
-            if origin.quad == UNKNOWN.quad {
-                *origin = VertexOrigin { quad, uv: grid.parameters(i as f64, j as f64) };
+            let place = &mut places[sides.side(nodes.node(grid, i, j)) as usize];
+            if place.quad == UNKNOWN.quad {
+                let segments = grid.segments as u32;
+                *place = NodePlace { quad, segments, node: [i as u32, j as u32] };
             }
         }
     }
-    origins
+    places
 }
 
 fn eval(surface: &Surface, quad: QuadId, [u, v]: [f64; 2]) -> SurfacePoint {
@@ -227,16 +229,16 @@ fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> 
 
 impl TriangleMesh {
     /// Computes all sides, and vertices on their first, a slice at a time.
-    fn evaluate(&mut self, surface: &Surface) -> Result<(), Cancelled> {
+    fn evaluate(&mut self, surface: &Surface, places: &[NodePlace]) -> Result<(), Cancelled> {
         const SLICE: usize = 1 << 16;
-        let num_vertices = self.origins.len() - self.side_vertices.len();
+        let num_vertices = places.len() - self.side_vertices.len();
         self.positions.reserve_exact(num_vertices);
-        self.normals.reserve_exact(self.origins.len());
-        self.gauss.reserve_exact(self.origins.len());
-        self.mean.reserve_exact(self.origins.len());
-        let mut steps = Steps::new("Evaluating vertices", self.origins.len().div_ceil(SLICE))?;
-        for slice in self.origins.chunks(SLICE) {
-            for points in samples(surface, self.rate, slice) {
+        self.normals.reserve_exact(places.len());
+        self.gauss.reserve_exact(places.len());
+        self.mean.reserve_exact(places.len());
+        let mut steps = Steps::new("Evaluating vertices", places.len().div_ceil(SLICE))?;
+        for slice in places.chunks(SLICE) {
+            for points in samples(surface, slice) {
                 let missing = num_vertices - self.positions.len();
                 self.positions.extend(points.iter().map(|p| p.position).take(missing));
                 self.normals.extend(points.iter().map(|p| p.normal));
