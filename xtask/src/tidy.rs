@@ -10,11 +10,12 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 18] = [
     "point",
     "angle",
     "parallel",
     "dense",
+    "sparse",
     "patch",
     "mesh",
     "net",
@@ -23,6 +24,7 @@ const LAYERS: [&str; 16] = [
     "cap",
     "basis",
     "surface",
+    "stencil",
     "tessellate",
     "analyse",
     "io",

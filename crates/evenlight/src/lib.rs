@@ -62,6 +62,7 @@
 //! | [`cap`] | finitely many patches instead of all further rings |
 //! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
+//! | [`stencil`] | the surface as weights of the cage's vertices |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
 //! | [`io`] | OBJ, PLY, USD, glTF, STL, BezierView |
@@ -87,6 +88,8 @@ pub mod picture;
 pub mod point;
 pub mod rings;
 pub mod scheme;
+mod sparse;
+pub mod stencil;
 pub mod surface;
 pub mod tessellate;
 

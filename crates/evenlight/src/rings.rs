@@ -129,7 +129,7 @@ pub struct Rings {
 
 /// Rings that are kept once they were asked for. A parameter closer to the centre than
 /// 2^-64 (sigma^64) is made of the last of them anew, in time proportional to its depth.
-const CACHED_RINGS: usize = 64;
+pub(crate) const CACHED_RINGS: usize = 64;
 
 /// Tangents shorter than this part of the net, or closer to parallel, are none: rounding leaves
 /// 1e-16 where they should vanish, and a sound cage stays far above.
@@ -250,6 +250,16 @@ impl Rings {
         let cached = [const { OnceLock::new() }; CACHED_RINGS];
         let normal = if frame.has_plane { frame.axes[2] } else { [f64::NAN; 3] };
         Self { rules, center, normal, quadratic, frame, first, cached }
+    }
+
+    /// The rings of a net relative to its limit point, whose coordinates are three numbers that have
+    /// nothing to do with each other: in no tangent plane, so that all shrink by lambda.
+    pub(crate) fn over_numbers(first: Vec<Vector>, rules: Arc<ValenceRules>) -> Self {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let frame = Frame { axes, has_plane: false };
+        let cached = [const { OnceLock::new() }; CACHED_RINGS];
+        let (center, normal) = ([0.0; 3], [f64::NAN; 3]);
+        Self { rules, center, normal, quadratic: None, frame, first, cached }
     }
 
     /// The number of sectors: the valence, or of a fan the number of its faces.
@@ -423,6 +433,11 @@ impl Rings {
 
     /// The rules, shared by all points of this valence.
     pub(crate) fn rules(&self) -> &ValenceRules {
+        &self.rules
+    }
+
+    /// [`Rings::rules`] to keep.
+    pub(crate) fn shared_rules(&self) -> &Arc<ValenceRules> {
         &self.rules
     }
 

@@ -12,7 +12,7 @@ mod fault;
 pub mod fix;
 pub mod isolation;
 mod nets;
-mod refine;
+pub(crate) mod refine;
 pub(crate) mod sharpness;
 mod tags;
 mod topology;
@@ -21,7 +21,7 @@ pub use check::{Cage, PrimvarFault};
 pub use fan::Fan;
 pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
-pub(crate) use nets::{cnet_vertices, fan_vertices};
+pub(crate) use nets::{RegularNet, cnet_vertices, fan_vertices};
 pub use sharpness::VertexRule;
 pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,

@@ -145,7 +145,7 @@ impl Rules {
 
     /// How many sectors have the same rules but for a turn: all, or if each has rules of its own
     /// (a fan), one.
-    fn turns(&self) -> usize {
+    pub(crate) fn turns(&self) -> usize {
         if self.patches.len() == self.patches_per_sector() { self.valence } else { 1 }
     }
 

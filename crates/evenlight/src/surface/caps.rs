@@ -63,6 +63,11 @@ impl Surface {
         Ok(())
     }
 
+    /// The rules of the cap around an extraordinary point, by its index.
+    pub(crate) fn cap_rules(&self, point: usize) -> Option<&Arc<ValenceCap>> {
+        self.caps.as_ref().map(|caps| &caps.around[point].0)
+    }
+
     /// How the surface is closed, if it is.
     pub fn cap_options(&self) -> Option<CapOptions> {
         self.caps.as_ref().map(|caps| caps.options)

@@ -25,6 +25,7 @@ mod rule;
 
 pub use build::SurfaceError;
 pub use place::{PatchPlace, PlacedPatch, Role};
+pub(crate) use place::{RingPatch, Source, quadrant, to_sector};
 pub use primvar::PrimvarJet;
 pub use rule::{PointRule, Reason};
 
@@ -43,7 +44,7 @@ use crate::rings::Rings;
 use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
 use build::{describe, refined_positions, rings, rules_of_points};
 use caps::Caps;
-use place::{RingPatch, Source, Square, from_sector, ring_domain, to_sector, turned_patch};
+use place::{Square, from_sector, ring_domain, turned_patch};
 
 /// The number of a parametric quad: all quads of face 0, then of face 1, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -184,6 +185,11 @@ impl Surface {
     /// The cage.
     pub fn cage(&self) -> &Cage {
         &self.cage
+    }
+
+    /// What covers its faces.
+    pub(crate) fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     /// How it was built.

@@ -42,12 +42,12 @@ pub struct PatchPlace {
     pub point: Option<usize>,
     /// The sector of that point, from 0.
     pub sector: Option<usize>,
-    pub(super) source: Source,
+    pub(crate) source: Source,
 }
 
 /// What a patch is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Source {
+pub(crate) enum Source {
     /// The number of its control net.
     Net(u32),
     /// A patch of a ring around an extraordinary point.
@@ -59,13 +59,13 @@ pub(super) enum Source {
 /// Patch `which` of a sector of a ring (from 0), the sector's square in its quad and the corner of
 /// the square at which the extraordinary point is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RingPatch {
-    pub(super) point: usize,
-    pub(super) sector: usize,
-    pub(super) ring: usize,
-    pub(super) which: usize,
+pub(crate) struct RingPatch {
+    pub(crate) point: usize,
+    pub(crate) sector: usize,
+    pub(crate) ring: usize,
+    pub(crate) which: usize,
     pub(super) square: Square,
-    pub(super) corner: u8,
+    pub(crate) corner: u8,
 }
 
 /// One polynomial patch of the surface and where it lies.
@@ -89,7 +89,7 @@ pub struct PlacedPatch {
 
 /// A square of a parametric quad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Square {
+pub(crate) struct Square {
     pub(super) quad: QuadId,
     pub(super) origin: [f64; 2],
     pub(super) size: f64,
@@ -114,7 +114,7 @@ impl Square {
 }
 
 /// The corner of the quarter of a square in which a point lies.
-pub(super) fn quadrant([u, v]: [f64; 2]) -> usize {
+pub(crate) fn quadrant([u, v]: [f64; 2]) -> usize {
     match (u > 0.5, v > 0.5) {
         (false, false) => 0,
         (true, false) => 1,
@@ -125,7 +125,7 @@ pub(super) fn quadrant([u, v]: [f64; 2]) -> usize {
 
 /// The sector parameters (a,b) of a point (u,v) of a square, the extraordinary point being at
 /// the square's corner `corner`: a runs to the next corner, b to the one before.
-pub(super) fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
     match corner {
         0 => [u, v],
         1 => [v, 1.0 - u],

@@ -178,6 +178,16 @@ impl Surface {
         Some(jet)
     }
 
+    /// The surface that has the numbers 0 to 2 of a primvar for positions, by its index; `None` if there
+    /// is none, as of primvars that are interpolated linearly.
+    pub(crate) fn smooth_channel(&self, primvar: usize) -> Option<&Self> {
+        let of_cage = self.primvars().get(primvar)?;
+        match self.channels[primvar].get_or_init(|| Channel::new(self, of_cage)) {
+            Channel::Linear => None,
+            Channel::Smooth(surfaces) => surfaces.first()?.as_ref(),
+        }
+    }
+
     fn eval_linear(&self, primvar: &Primvar, quad: QuadId, u: f64, v: f64) -> PrimvarJet {
         let (face, corner) = self.face_of(quad);
         let faces = self.cage.topology().faces();

@@ -1,0 +1,327 @@
+//! Rows of a surface: of places on it and of the coefficients of its patches.
+//!
+//! A place is a few weights of the nodes of one net, found as [`Surface::eval`] finds the piece:
+//!
+//! ```text
+//!   regular piece    4 x 4 nodes     products of B-splines
+//!   ring, cap        6 n + 1 nodes   products of Bernstein polynomials, times the weights of the
+//!                                    nodes in the coefficients of the patch ([`unit`](super::unit))
+//! ```
+
+use std::sync::Arc;
+
+use super::StencilError;
+use super::basis::{factors, product, turned, turned_coefficient};
+use super::columns::{Columns, Sums};
+use super::unit::{Table, UnitNets};
+use crate::mesh::isolation::{CORNERS, Piece, Plan};
+use crate::mesh::{RegularNet, Topology, VertexId, cnet_vertices, fan_vertices};
+use crate::patch::MAX_DEGREE;
+use crate::patch::basis::{BasisJet, CUBIC_B_SPLINE_TO_BB, bernstein, cubic_b_spline};
+use crate::rings::{power, ring_of, scaled_up};
+use crate::surface::{PatchPlace, QuadId, RingPatch, Source, Surface, quadrant, to_sector};
+
+/// The net of a surface, and what is kept of it while stencils are made.
+#[derive(Debug)]
+pub(super) struct SmoothNet<'a> {
+    plan: &'a Plan,
+    topology: &'a Topology,
+    columns: Columns,
+    units: Vec<UnitNets>,
+    points: Vec<PointNet>,
+}
+
+/// The net of an extraordinary point.
+#[derive(Debug)]
+struct PointNet {
+    /// The number of its unit nets.
+    units: usize,
+    level: usize,
+    vertices: Vec<VertexId>,
+}
+
+/// What the coefficients of a patch are made of.
+pub(super) enum PatchRows<'a> {
+    /// A net of B-splines.
+    Regular(&'a RegularNet),
+    /// A patch of a ring or cap.
+    Around {
+        /// Which.
+        spot: Spot<'a>,
+        /// The corner of its square at which the extraordinary point is.
+        corner: u8,
+        /// What its table is scaled by.
+        scale: f64,
+    },
+}
+
+impl PatchRows<'_> {
+    /// The degree of the patch in both parameters.
+    pub(super) fn degree(&self) -> usize {
+        match self {
+            Self::Regular(_) => 3,
+            Self::Around { spot, .. } => spot.table.degree,
+        }
+    }
+}
+
+/// A patch around an extraordinary point.
+pub(super) struct Spot<'a> {
+    point: &'a PointNet,
+    units: &'a UnitNets,
+    table: Arc<Table>,
+    sector: usize,
+    which: usize,
+}
+
+impl<'a> SmoothNet<'a> {
+    /// The net of the surface over `columns`, which have no levels yet.
+    pub(super) fn new(surface: &'a Surface, columns: Columns) -> Result<Self, StencilError> {
+        let (plan, topology) = (surface.plan(), surface.cage().topology());
+        let mut net = Self { plan, topology, columns, units: Vec::new(), points: Vec::new() };
+        for (k, level) in plan.levels.iter().enumerate() {
+            let (coarse, sharpness) = (plan.topology(topology, k), &plan.sharpness[k]);
+            let count = level.topology().num_vertices();
+            let rows = net.columns.refined(count, |v| level.mask(coarse, sharpness, v))?;
+            net.columns.push(rows);
+        }
+        for point in 0..plan.points.len() {
+            let units = net.units_of(surface, point);
+            let (level, vertices) = (plan.points[point].level, net.vertices_around(point));
+            net.points.push(PointNet { units, level, vertices });
+        }
+        Ok(net)
+    }
+
+    /// The number of the unit nets of a point, which are made if there are none yet.
+    fn units_of(&mut self, surface: &Surface, point: usize) -> usize {
+        let rules = surface.rings(point).shared_rules();
+        if let Some(found) = self.units.iter().position(|units| units.are_of(rules)) {
+            return found;
+        }
+        let options = surface.cap_options();
+        let cap = surface.cap_rules(point).cloned().zip(options.map(|options| options.rings));
+        self.units.push(UnitNets::new(Arc::clone(rules), cap));
+        self.units.len() - 1
+    }
+
+    /// The vertices of the net around a point, at its level, the centre the last.
+    fn vertices_around(&self, point: usize) -> Vec<VertexId> {
+        let topology = self.plan.topology(self.topology, self.plan.points[point].level);
+        if !self.plan.points[point].fan.is_smooth() {
+            return fan_vertices(topology, self.plan.placed_fan(point));
+        }
+        let first = self.plan.first_half_edges[point];
+        let sectors = cnet_vertices(topology, first).into_iter().flatten();
+        sectors.chain([topology.origin(first)]).collect()
+    }
+
+    pub(super) fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    /// Enters the R rows of a place, parameters from 0 to 1; `false` if there is no surface over the
+    /// quad.
+    pub(super) fn place<const R: usize>(
+        &self,
+        quad: QuadId,
+        mut at: [f64; 2],
+        sums: &mut Sums<R>,
+    ) -> Result<bool, StencilError> {
+        let (mut piece, mut zoom) = (self.plan.pieces[quad.0 as usize], 1.0);
+        loop {
+            match piece {
+                Piece::Omitted => return Ok(false),
+                Piece::Regular(net) => {
+                    let net = &self.plan.nets[net as usize];
+                    self.place_in_regular(net, at, zoom, sums);
+                    return Ok(true);
+                }
+                Piece::Sector { point, sector, corner } => {
+                    let (point, sector) = (point as usize, sector as usize);
+                    self.place_around((point, sector, corner), at, zoom, sums)?;
+                    return Ok(true);
+                }
+                Piece::Split(first) => {
+                    let k = quadrant(at);
+                    piece = self.plan.pieces[first as usize + k];
+                    at = [2.0 * at[0] - CORNERS[k][0], 2.0 * at[1] - CORNERS[k][1]];
+                    zoom *= 2.0;
+                }
+            }
+        }
+    }
+
+    fn place_in_regular<const R: usize>(
+        &self,
+        net: &RegularNet,
+        [u, v]: [f64; 2],
+        zoom: f64,
+        sums: &mut Sums<R>,
+    ) {
+        let factors: [f64; R] = factors([1.0, zoom, zoom * zoom], [1.0; 2]);
+        let (bu, bv) = (cubic_b_spline(u), cubic_b_spline(v));
+        let weight = |k: usize| product(&factors, [&bu, &bv], [k / 4, k % 4]);
+        self.enter_regular(net, std::array::from_fn(weight), sums);
+    }
+
+    fn enter_regular<const R: usize>(
+        &self,
+        net: &RegularNet,
+        mut weights: [[f64; R]; 16],
+        sums: &mut Sums<R>,
+    ) {
+        net.fold(&mut weights);
+        for (&v, w) in net.vertices.iter().zip(weights).filter(|(_, w)| *w != [0.0; R]) {
+            self.columns.enter((net.level as usize, v), w, sums);
+        }
+    }
+
+    /// A place in the square of a sector, which is `zoom` times as small as the quad.
+    fn place_around<const R: usize>(
+        &self,
+        (point, sector, corner): (usize, usize, u8),
+        at: [f64; 2],
+        zoom: f64,
+        sums: &mut Sums<R>,
+    ) -> Result<(), StencilError> {
+        let point = &self.points[point];
+        let units = &self.units[point.units];
+        units.check()?;
+        let sigma = units.rules().rules().sigma();
+        let at = to_sector(corner, at);
+        let in_hole = |count: usize| at.map(|x| scaled_up(x, count, sigma));
+        let is_inside = |count: &usize| in_hole(*count).iter().all(|&x| x <= 1.0);
+        let in_cap = units.cap_rings().filter(is_inside).zip(units.cap());
+        let by_zoom = |order: [f64; 3]| [order[0], order[1] * zoom, order[2] * (zoom * zoom)];
+        if let Some((count, table)) = in_cap {
+            let (which, at, size) = in_cap_patch(in_hole(count), table.split());
+            let factors: [f64; R] = factors(by_zoom(scales(units, count)), [size; 2]);
+            let spot = Spot { point, units, table, sector, which };
+            self.enter_spot(&spot, &bases(spot.table.degree, at), factors, corner, sums);
+        } else if at == [0.0; 2] {
+            self.enter_center(point, units, sums);
+        } else {
+            let ring = ring_of(at[0].max(at[1]), sigma);
+            let place = units.rules().rules().locate(in_hole(ring));
+            let factors: [f64; R] = factors(by_zoom(scales(units, ring)), place.size);
+            let (table, which) = (units.ring(ring), place.which);
+            let spot = Spot { point, units, table, sector, which };
+            self.enter_spot(&spot, &bases(spot.table.degree, place.at), factors, corner, sums);
+        }
+        Ok(())
+    }
+
+    /// Enters the rows of a place in a patch by its bases; the limit point has its part in the position.
+    fn enter_spot<const R: usize>(
+        &self,
+        spot: &Spot<'_>,
+        [ba, bb]: &[BasisJet<{ MAX_DEGREE + 1 }>; 2],
+        factors: [f64; R],
+        corner: u8,
+        sums: &mut Sums<R>,
+    ) {
+        let (sector, number) = spot.units.seen_from(spot.sector);
+        let mut weights = vec![[0.0; R]; spot.units.center().len()];
+        let order = spot.table.degree + 1;
+        for (k, row) in spot.table.patch(sector, spot.which).enumerate() {
+            let w = turned(corner, product(&factors, [ba, bb], [k / order, k % order]));
+            for (sum, x) in weights.iter_mut().zip(row) {
+                (0..R).for_each(|r| sum[r] += w[r] * x);
+            }
+        }
+        for (k, (mut w, center)) in weights.into_iter().zip(spot.units.center()).enumerate() {
+            w[0] += center;
+            if w != [0.0; R] {
+                self.columns.enter((spot.point.level, spot.point.vertices[number(k)]), w, sums);
+            }
+        }
+    }
+
+    /// The extraordinary point itself, where derivatives do not exist.
+    fn enter_center<const R: usize>(&self, point: &PointNet, units: &UnitNets, sums: &mut Sums<R>) {
+        for (&w, &v) in units.center().iter().zip(&point.vertices).filter(|&(&w, _)| w != 0.0) {
+            let mut rows = [f64::NAN; R];
+            rows[0] = w;
+            self.columns.enter((point.level, v), rows, sums);
+        }
+    }
+
+    /// What the coefficients of a patch are made of; `None` if it is not one of this surface.
+    pub(super) fn patch(&self, place: &PatchPlace) -> Result<Option<PatchRows<'_>>, StencilError> {
+        match place.source {
+            Source::Net(net) => Ok(self.plan.nets.get(net as usize).map(PatchRows::Regular)),
+            Source::Ring(at) => self.patch_around(&at, |units| Some(units.ring(at.ring))),
+            Source::Cap(at) => self.patch_around(&at, |units| {
+                let count = units.cap_rings().filter(|&count| count == at.ring);
+                count.and_then(|_| units.cap())
+            }),
+        }
+    }
+
+    fn patch_around(
+        &self,
+        at: &RingPatch,
+        table: impl Fn(&UnitNets) -> Option<Arc<Table>>,
+    ) -> Result<Option<PatchRows<'_>>, StencilError> {
+        let RingPatch { point, sector, which, corner, ring, .. } = *at;
+        let Some(point) = self.points.get(point) else { return Ok(None) };
+        let units = &self.units[point.units];
+        units.check()?;
+        let valence = units.rules().rules().valence;
+        let table =
+            table(units).filter(|table| sector < valence && which < table.patches_per_sector);
+        let scale = power(units.rules().subdominant().lambda, ring);
+        Ok(table.map(|table| {
+            let spot = Spot { point, units, table, sector, which };
+            PatchRows::Around { spot, corner, scale }
+        }))
+    }
+
+    /// Enters coefficient (i,j) of a patch.
+    pub(super) fn coefficient(
+        &self,
+        patch: &PatchRows<'_>,
+        [i, j]: [usize; 2],
+        sums: &mut Sums<1>,
+    ) {
+        match patch {
+            PatchRows::Regular(net) => {
+                let (bu, bv) = (&CUBIC_B_SPLINE_TO_BB[i], &CUBIC_B_SPLINE_TO_BB[j]);
+                let weights = std::array::from_fn(|k| [bu[k / 4] * bv[k % 4]]);
+                self.enter_regular(net, weights, sums);
+            }
+            PatchRows::Around { spot, corner, scale } => {
+                let (sector, number) = spot.units.seen_from(spot.sector);
+                let k = turned_coefficient(*corner, spot.table.degree, [i, j]);
+                let row = spot.table.patch(sector, spot.which).nth(k).unwrap_or_default();
+                for (k, (w, center)) in row.iter().zip(spot.units.center()).enumerate() {
+                    let vertex = spot.point.vertices[number(k)];
+                    let w = center + scale * w;
+                    self.columns.enter((spot.point.level, vertex), [w], sums);
+                }
+            }
+        }
+    }
+}
+
+/// The factors of positions, first and second derivatives by a and b in a ring, for patch parameters
+/// that run once through all of a sector.
+fn scales(units: &UnitNets, ring: usize) -> [f64; 3] {
+    let lambda = units.rules().subdominant().lambda;
+    let step = units.rules().rules().sigma();
+    [lambda, lambda / step, lambda / (step * step)].map(|factor| power(factor, ring))
+}
+
+fn bases(degree: usize, at: [f64; 2]) -> [BasisJet<{ MAX_DEGREE + 1 }>; 2] {
+    at.map(|x| bernstein(degree, x))
+}
+
+/// The patch of a cap that has a place of the hole, as [`Cap::eval`](crate::cap::Cap::eval) chooses it,
+/// the parameters in that patch, and its size.
+fn in_cap_patch(at: [f64; 2], split: usize) -> (usize, [f64; 2], f64) {
+    let m = split as f64;
+    let part = at.map(|x| ((x * m).ceil() as usize).saturating_sub(1).min(split - 1));
+    let inside = [0, 1].map(|k| (at[k] - part[k] as f64 / m) * m);
+    (part[0] * split + part[1], inside, 1.0 / m)
+}
