@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use common::{Random, fans, options};
 use evenlight::cap::{CapKind, CapOptions};
-use evenlight::mesh::{BoundaryRule, FaceVaryingRule, Interpolation, Primvar};
+use evenlight::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use evenlight::stencil::{Order, StencilBuilder, StencilError, Stencils};
 use evenlight::surface::{CreaseRings, Role};
 use evenlight::{Cage, FaceId, Mesh, QuadId, SchemeKind, Surface, SurfaceOptions};
@@ -29,6 +29,24 @@ fn cages() -> Vec<(String, Arc<Cage>)> {
         (format!("star {n} {lines:?}"), Arc::new(cage))
     });
     common::feature_cages().into_iter().chain(plain).chain(starred).collect()
+}
+
+/// Cages with every kind of extraordinary point.
+fn some_cages() -> Vec<(String, Arc<Cage>)> {
+    let names = [
+        "own_polygons.obj",
+        "obstacle/saddle_n5.obj",
+        "features/boundary_valences.obj",
+        "features/crease_dart.obj",
+        "features/crease_fractional.obj",
+        "features/holes.obj",
+        "features/polygons_creased.obj",
+        "features/star5_dart.obj",
+        "features/star6_junction.obj",
+        "features/star7_corner.obj",
+        "features/valence_two.obj",
+    ];
+    names.map(|name| (name.to_owned(), common::cage(name))).into()
 }
 
 /// Options of every scheme, and fair rings beside creases.
@@ -80,6 +98,7 @@ fn scales(surface: &Surface, places: &[Place], order: Order) -> Vec<f64> {
         let Some((p, distance, zoom)) = inside else { return [1.0, 4.0, 16.0] };
         let (lambda, sigma) = (surface.rings(p).lambda(), surface.rings(p).sigma());
         let ring = if distance > 0.0 { (distance.ln() / sigma.ln()).floor() } else { 0.0 };
+        let ring = surface.cap_options().map_or(ring, |caps| ring.min(caps.rings as f64));
         let of_order = |k: i32| (lambda / sigma.powi(k)).powf(ring) * (4.0 * zoom).powi(k);
         [1.0, of_order(1), of_order(2)]
     };
@@ -153,4 +172,393 @@ fn lower_orders_are_the_first_rows() {
             assert_eq!(all.row(same), Some(row));
         }
     }
+}
+
+/// Ring after ring, until numbers end.
+#[test]
+fn places_are_those_of_the_surface_at_any_depth() {
+    let cages = ["obstacle/saddle_n5.obj", "features/star5_dart.obj", "features/star5_crease.obj"];
+    let cages = cages.into_iter().chain(["features/valence_two.obj", "obstacle/pillow_n3.obj"]);
+    for cage in cages.map(common::cage) {
+        for options in all_options() {
+            let surface = Surface::build(cage.clone(), options).unwrap();
+            let sectors = surface.extraordinary_points().iter().map(|point| point.sectors[0]);
+            let at = |sector: &evenlight::surface::Sector, depth: f64| {
+                let [u, v] = [0, 1].map(|k| {
+                    sector.center[k] + depth * (0.9 * sector.along[0][k] + 0.4 * sector.along[1][k])
+                });
+                (sector.quad, u, v)
+            };
+            // Depths beyond 1e-16 are there where the parameters of the point are 0.
+            let depths = (0..25).map(|k| 0.5 * 4_f64.powi(-k)).chain([1e-20, 1e-30, 1e-60]);
+            let depths: Vec<f64> = depths.collect();
+            let is_deep = |sector: &evenlight::surface::Sector, d: f64| {
+                d > 1e-14 || sector.center == [0.0; 2]
+            };
+            let places: Vec<Place> = sectors
+                .flat_map(|s| {
+                    depths
+                        .iter()
+                        .filter(|&&d| is_deep(&s, d))
+                        .map(move |&d| at(&s, d))
+                        .collect::<Vec<_>>()
+                })
+                .collect();
+            let builder = StencilBuilder::new(&surface).unwrap();
+            let stencils = builder.places(&places, Order::Second).unwrap();
+            let scales = scales(&surface, &places, Order::Second);
+            check(
+                options.scheme.name(),
+                &stencils,
+                &scales,
+                cage.positions(),
+                &jets(&surface, &places),
+            );
+            check_sums(options.scheme.name(), &stencils, Order::Second, &scales);
+        }
+    }
+}
+
+/// At the point itself the position is the limit point; derivatives are NaN, unless there is a cap.
+#[test]
+fn at_the_point_itself_derivatives_do_not_exist() {
+    for (name, cage) in cages() {
+        let mut surface = common::surface(&cage, SchemeKind::Qas4);
+        let sectors = surface.extraordinary_points().iter().flat_map(|point| &point.sectors);
+        let places: Vec<Place> = sectors.map(|s| (s.quad, s.center[0], s.center[1])).collect();
+        let stencils =
+            StencilBuilder::new(&surface).unwrap().places(&places, Order::Second).unwrap();
+        let scales = vec![1.0; stencils.num_rows()];
+        let expected = jets(&surface, &places);
+        assert!(expected.iter().filter(|p| p[0].is_nan()).count() == 5 * places.len());
+        check(&name, &stencils, &scales, cage.positions(), &expected);
+        surface.set_caps(Some(CapOptions { rings: 1, ..CapOptions::default() })).unwrap();
+        let stencils =
+            StencilBuilder::new(&surface).unwrap().places(&places, Order::Second).unwrap();
+        assert!(stencils.weights().iter().all(|w| w.is_finite()), "{name}");
+        let scales = self::scales(&surface, &places, Order::Second);
+        let scales: Vec<f64> = scales.iter().map(|s| s.max(100.0)).collect();
+        check(&name, &stencils, &scales, cage.positions(), &jets(&surface, &places));
+    }
+}
+
+/// Caps are linear in the cage too.
+#[test]
+fn places_in_caps_are_those_of_the_surface() {
+    for (name, cage) in some_cages() {
+        for options in all_options() {
+            for (rings, kind) in [(0, CapKind::Auto), (3, CapKind::Bi4), (12, CapKind::Auto)] {
+                let mut surface = Surface::build(cage.clone(), options).unwrap();
+                if surface.set_caps(Some(CapOptions { rings, kind })).is_err() {
+                    assert_eq!(kind, CapKind::Bi4, "{name}: auto fits all schemes");
+                    continue;
+                }
+                let name = format!("{name} {} {rings} {kind:?}", options.scheme.name());
+                let places = places(&surface);
+                let builder = StencilBuilder::new(&surface).unwrap();
+                let stencils = builder.places(&places, Order::Second).unwrap();
+                let scales: Vec<f64> =
+                    scales(&surface, &places, Order::Second).iter().map(|x| 4.0 * x).collect();
+                check(&name, &stencils, &scales, cage.positions(), &jets(&surface, &places));
+                check_sums(&name, &stencils, Order::Second, &scales);
+            }
+        }
+    }
+}
+
+/// The rows of the coefficients of patches, at rings 1, 5 and 12, and of caps.
+#[test]
+fn patches_are_those_of_the_surface() {
+    for (name, cage) in some_cages() {
+        for options in all_options() {
+            let mut surface = Surface::build(cage.clone(), options).unwrap();
+            for caps in [None, Some(CapOptions { rings: 12, ..CapOptions::default() })] {
+                surface.set_caps(caps).unwrap();
+                let wanted =
+                    [Role::Ring(1), Role::Ring(5), Role::Ring(12), Role::Regular, Role::Cap];
+                let places: Vec<_> =
+                    surface.patch_places(12).filter(|place| wanted.contains(&place.role)).collect();
+                let builder = StencilBuilder::new(&surface).unwrap();
+                assert!(builder.patch_places(12).len() >= places.len());
+                let patches = builder.patches(&places).unwrap();
+                let name = format!("{name} {} {caps:?}", options.scheme.name());
+                let mut expected = Vec::new();
+                for (k, place) in places.iter().enumerate() {
+                    let patch = surface.patch(place);
+                    assert_eq!(patch.degree(), [patches.degree(k).unwrap(); 2], "{name}");
+                    assert_eq!(patches.rows(k).unwrap().start, expected.len());
+                    expected.extend(patch.coefs());
+                }
+                let ones = vec![1.0; expected.len()];
+                check(&name, patches.stencils(), &ones, cage.positions(), &expected);
+                check_sums(&name, patches.stencils(), Order::Position, &ones);
+            }
+        }
+    }
+}
+
+/// The rows of refined vertices by the reference that shares nothing with the library: corner by
+/// corner, with creases, corners, boundaries and polygons.
+#[test]
+fn refined_vertices_are_those_of_the_reference() {
+    for (name, cage) in cages() {
+        let surface = common::surface(&cage, SchemeKind::CatmullClark);
+        let builder = StencilBuilder::new(&surface).unwrap();
+        let mut mesh = Mesh {
+            positions: cage.positions().to_vec(),
+            faces: cage.topology().faces().clone(),
+            tags: cage.tags().clone(),
+            primvars: vec![],
+        };
+        // Sharpness is in single precision, which the reference does not know of.
+        let single = |s: &mut f64| *s = f64::from(*s as f32);
+        mesh.tags.creases.iter_mut().for_each(|crease| single(&mut crease.sharpness));
+        mesh.tags.corners.iter_mut().for_each(|corner| single(&mut corner.sharpness));
+        for steps in 0..=3 {
+            let refined = builder.refined(steps).unwrap();
+            let name = format!("{name}, {steps} steps");
+            assert_eq!(refined.faces.len(), mesh.faces.len(), "{name}");
+            let found = refined.stencils.apply(cage.positions()).unwrap();
+            for (a, b) in refined.faces.all_corners().iter().zip(mesh.faces.all_corners()) {
+                let (a, b) = (found[a.index()], mesh.positions[b.index()]);
+                assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-13), "{name}: {a:?}, not {b:?}");
+            }
+            check_sums(&name, &refined.stencils, Order::Position, &vec![1.0; found.len()]);
+            if steps < 3 {
+                mesh = common::refine::refine(&mesh);
+            }
+        }
+    }
+}
+
+/// The rows of two steps are those of one step of the cage refined once.
+#[test]
+fn steps_follow_each_other() {
+    for cage in ["own_polygons.obj", "features/boundary_edge_only.obj"].map(common::cage) {
+        let refined = |cage: &Arc<Cage>, steps: usize| {
+            let surface = common::surface(cage, SchemeKind::Qas4);
+            StencilBuilder::new(&surface).unwrap().refined(steps).unwrap()
+        };
+        let (once, twice) = (refined(&cage, 1), refined(&cage, 2));
+        let positions = once.stencils.apply(cage.positions()).unwrap();
+        let tags = cage.tags().clone();
+        let mesh = Mesh { faces: once.faces, tags, ..Mesh::new(positions, [[0; 0]; 0]) };
+        let next = refined(&Arc::new(Cage::new(mesh).unwrap()), 1);
+        assert_eq!(next.faces, twice.faces);
+        let product = next.stencils.times(&once.stencils).unwrap();
+        for (a, b) in product.rows().zip(twice.stencils.rows()) {
+            assert_eq!(a.0, b.0);
+            assert!(a.1.iter().zip(b.1).all(|(x, y)| (x - y).abs() < 1e-15));
+        }
+    }
+}
+
+/// Where a corner of a refined face lies in its quad; of cages of quads.
+fn corner_in_quad(child: usize, steps: usize, corner: usize) -> [f64; 2] {
+    const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let mut at = CORNERS[corner];
+    for step in 0..steps {
+        let k = child >> (2 * step) & 3;
+        at = [0, 1].map(|d| 0.5 * (at[d] + CORNERS[k][d]));
+    }
+    at
+}
+
+/// How far the refined vertices of a primvar are from its limits at the same places.
+fn distance_from_limit(builder: &StencilBuilder, primvar: &Primvar, steps: usize) -> f64 {
+    let refined = builder.refined(steps).unwrap();
+    let (width, faces) = (primvar.width, &refined.faces);
+    let mut values = vec![0.0; refined.stencils.num_rows() * width];
+    refined.stencils.apply_flat(width, &primvar.values, &mut values).unwrap();
+    let corners = faces.ids().flat_map(|f| [0, 1, 2, 3].map(|k| (f, k)));
+    let (places, rows): (Vec<Place>, Vec<usize>) = corners
+        .map(|(f, k)| {
+            let parent = refined.parents[f.index()];
+            let first = refined.parents.partition_point(|&p| p < parent);
+            let [u, v] = corner_in_quad(f.index() - first, steps, k);
+            ((QuadId(parent.0), u, v), faces.corners(f)[k].index())
+        })
+        .unzip();
+    let stencils = builder.places(&places, Order::Position).unwrap();
+    let mut limits = vec![0.0; places.len() * width];
+    stencils.apply_flat(width, &primvar.values, &mut limits).unwrap();
+    let numbers = rows.iter().flat_map(|&row| (0..width).map(move |k| row * width + k));
+    limits.iter().zip(numbers).map(|(x, at)| (x - values[at]).abs()).fold(0.0, f64::max)
+}
+
+const RULES: [FaceVaryingRule; 6] = [
+    FaceVaryingRule::None,
+    FaceVaryingRule::CornersOnly,
+    FaceVaryingRule::CornersPlus1,
+    FaceVaryingRule::CornersPlus2,
+    FaceVaryingRule::Boundaries,
+    FaceVaryingRule::All,
+];
+
+/// Feature cages with texture coordinates; with them a varying and a vertex primvar.
+fn textured(rule: FaceVaryingRule) -> Vec<(String, Cage)> {
+    let cages = common::feature_cages().into_iter().filter(|(name, _)| name.starts_with("uv_"));
+    let with_primvars = |(name, cage): (String, Arc<Cage>)| {
+        let mut mesh = common::mesh(&format!("features/{name}"));
+        mesh.tags.face_varying = rule;
+        let values: Vec<f64> = cage.positions().as_flattened().iter().map(|x| 1.0 - x).collect();
+        for interpolation in [Interpolation::Varying, Interpolation::Vertex] {
+            let (name, indices) = (format!("{interpolation:?}"), vec![]);
+            let values = values.clone();
+            mesh.primvars.push(Primvar { name, interpolation, width: 3, values, indices });
+        }
+        (name, Cage::new(mesh).unwrap())
+    };
+    cages.map(with_primvars).collect()
+}
+
+#[test]
+fn primvars_are_those_of_the_surface() {
+    for (rule, scheme) in RULES.into_iter().flat_map(|rule| SchemeKind::ALL.map(|s| (rule, s))) {
+        for (name, cage) in textured(rule) {
+            let surface = Surface::build(cage, options(scheme)).unwrap();
+            // Close to points at seams derivatives of channels have lost digits themselves.
+            let is_deep = |&(_, u, v): &Place| u * (1.0 - u) * v * (1.0 - v) < 1e-9;
+            let mut places = places(&surface);
+            places.retain(|place| !is_deep(place) || place.1 * (1.0 - place.1) == 0.0);
+            for (k, primvar) in surface.primvars().iter().enumerate() {
+                let name = format!("{name} {rule:?} {} {}", scheme.name(), primvar.name);
+                let builder = StencilBuilder::of_primvar(&surface, k).unwrap();
+                let stencils = builder.places(&places, Order::Second).unwrap();
+                let (values, width) = (&primvar.values, primvar.width);
+                assert_eq!(stencils.num_columns() * width, values.len());
+                let mut results = vec![0.0; stencils.num_rows() * width];
+                stencils.apply_flat(width, values, &mut results).unwrap();
+                // Channels have points of their own at seams, at which second derivatives grow.
+                let largest = values.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+                for (&(quad, u, v), found) in places.iter().zip(results.chunks(6 * width)) {
+                    let jet = surface.eval_primvar(k, quad, u, v).unwrap();
+                    let rows = [jet.value, jet.du, jet.dv, jet.duu, jet.duv, jet.dvv];
+                    let size = rows.as_flattened().iter().fold(largest, |m: f64, x| m.max(x.abs()));
+                    for (row, found) in rows.iter().zip(found.chunks(width)) {
+                        let close = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e2 * ROUNDING * size;
+                        let is_same = found.iter().zip(row).all(close);
+                        assert!(is_same, "{name}, {quad:?} {u} {v}: {found:?}, not {row:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Refinement of primvars goes to their limits: around irregular points by their eigenvalues, which
+/// are below .75 here.
+#[test]
+fn refined_primvars_approach_their_limits() {
+    for (name, cage) in RULES.into_iter().flat_map(textured) {
+        if cage.topology().faces().iter().any(|corners| corners.len() != 4) {
+            continue;
+        }
+        let surface = Surface::build(cage, options(SchemeKind::CatmullClark)).unwrap();
+        for (k, primvar) in surface.primvars().iter().enumerate() {
+            let builder = StencilBuilder::of_primvar(&surface, k).unwrap();
+            let [coarse, fine] = [2, 4].map(|steps| distance_from_limit(&builder, primvar, steps));
+            let name = format!("{name} {:?} {}", surface.cage().tags().face_varying, primvar.name);
+            assert!(fine <= 0.75 * 0.75 * coarse + 1e-14, "{name}: {coarse} {fine}");
+        }
+    }
+}
+
+/// The patches of a face-varying primvar are those of its own net.
+#[test]
+fn patches_of_primvars_have_the_limits() {
+    for (name, cage) in textured(FaceVaryingRule::CornersPlus1) {
+        let surface = Surface::build(cage, options(SchemeKind::Qas4)).unwrap();
+        for (k, primvar) in surface.primvars().iter().enumerate() {
+            let builder = StencilBuilder::of_primvar(&surface, k).unwrap();
+            let places = builder.patch_places(2);
+            if primvar.interpolation == Interpolation::Varying {
+                assert_eq!(builder.patches(&places).unwrap_err(), StencilError::Linear);
+                continue;
+            }
+            let patches = builder.patches(&places).unwrap();
+            let width = primvar.width;
+            let mut coefs = vec![0.0; patches.stencils().num_rows() * width];
+            patches.stencils().apply_flat(width, &primvar.values, &mut coefs).unwrap();
+            for (k, place) in places.iter().enumerate() {
+                // The first coefficient is the value at the patch's own corner.
+                let row = patches.rows(k).unwrap().start;
+                let [[u, _], [v, _]] = place.domain;
+                let mut limit = vec![0.0; width];
+                let stencils = builder.places(&[(place.quad, u, v)], Order::Position).unwrap();
+                stencils.apply_flat(width, &primvar.values, &mut limit).unwrap();
+                let found = &coefs[row * width..][..width];
+                let is_same = limit.iter().zip(found).all(|(a, b)| (a - b).abs() < 1e-12);
+                assert!(is_same, "{name} {}: {found:?}, not {limit:?}", primvar.name);
+            }
+        }
+    }
+}
+
+/// In the plane the surface of a regular grid is the grid: u and v are reproduced, and their squares
+/// up to the constant that splines add.
+#[test]
+fn a_regular_grid_is_reproduced() {
+    let n = 6;
+    let at = |i: u32, j: u32| i * (n + 1) + j;
+    let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    let faces = cells.map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+    let nodes = (0..=n).flat_map(|i| (0..=n).map(move |j| [f64::from(i), f64::from(j), 0.0]));
+    let cage = Cage::new(Mesh::new(nodes.collect(), faces)).unwrap();
+    let squares: Vec<[f64; 2]> = cage.positions().iter().map(|&[x, y, _]| [x * x, x * y]).collect();
+    let surface = Surface::build(cage, SurfaceOptions::default()).unwrap();
+    // The middle face, from (2,3).
+    let place = (surface.quad(FaceId(2 * n + 3), 0).unwrap(), 0.25, 0.75);
+    let stencils = StencilBuilder::new(&surface).unwrap().places(&[place], Order::Second).unwrap();
+    let (x, y) = (2.25, 3.75);
+    let expected =
+        [[x * x + 1.0 / 3.0, x * y], [2.0 * x, y], [0.0, x], [2.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
+    for (a, b) in stencils.apply(&squares).unwrap().iter().zip(expected) {
+        assert!((0..2).all(|k| (a[k] - b[k]).abs() < 1e-13), "{a:?}, not {b:?}");
+    }
+    assert_eq!(stencils.row(0).unwrap().0.len(), 16);
+}
+
+#[test]
+fn bad_input_is_an_error() {
+    let cage = common::cage("features/holes.obj");
+    let surface = common::surface(&cage, SchemeKind::Qas4);
+    let builder = StencilBuilder::new(&surface).unwrap();
+    let error =
+        |place: Place| builder.places(&[(QuadId(0), 0.5, 0.5), place], Order::First).unwrap_err();
+    let quad = QuadId(surface.num_quads() as u32);
+    assert_eq!(error((quad, 0.5, 0.5)), StencilError::Quad { place: 1, quad });
+    assert_eq!(error((QuadId(0), f64::NAN, 0.5)), StencilError::Parameter { place: 1 });
+    let hole = surface.quad(surface.omitted_faces()[0], 0).unwrap();
+    assert_eq!(error((hole, 0.5, 0.5)), StencilError::Omitted { place: 1, quad: hole });
+    let inside = builder.places(&[(QuadId(0), 0.0, 1.0)], Order::Second).unwrap();
+    let clamped = builder.places(&[(QuadId(0), f64::NEG_INFINITY, 7.0)], Order::Second).unwrap();
+    assert_eq!(inside, clamped);
+    let missing = StencilBuilder::of_primvar(&surface, 3).unwrap_err();
+    assert_eq!(missing, StencilError::Primvar { primvar: 3 });
+    assert_eq!(builder.refined(40).unwrap_err(), StencilError::TooLarge);
+    assert!(inside.apply(&[[0.0]; 3]).is_err());
+
+    let other = common::surface(&common::cage("own_polygons.obj"), SchemeKind::Guided3);
+    let places: Vec<_> = other.patch_places(2).collect();
+    let patch = places.iter().position(|place| builder.patches(&[*place]).is_err()).unwrap();
+    assert_eq!(builder.patches(&places).unwrap_err(), StencilError::Patch { patch });
+    assert_eq!(builder.places(&[], Order::First).unwrap().num_rows(), 0);
+}
+
+#[cfg(feature = "parallel")]
+#[test]
+fn the_number_of_threads_does_not_change_a_byte() {
+    let surface = common::surface(&common::cage("own_blob_quadriflow_1500.obj"), SchemeKind::Qas4);
+    let places: Vec<Place> = std::iter::repeat_n(places(&surface), 4).flatten().collect();
+    let made = [1, 2, 5].map(|num_threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
+        pool.install(|| {
+            let builder = StencilBuilder::new(&surface).unwrap();
+            let rows = builder.places(&places, Order::First).unwrap();
+            let results = rows.apply(surface.cage().positions()).unwrap();
+            (builder.refined(1).unwrap().stencils, rows, results)
+        })
+    });
+    assert!(made[0] == made[1] && made[1] == made[2]);
 }

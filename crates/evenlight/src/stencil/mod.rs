@@ -233,14 +233,27 @@ impl<'a> StencilBuilder<'a> {
         if is_covered { Ok(()) } else { Err(StencilError::Omitted { place, quad }) }
     }
 
-    /// The rows of the Bernstein-Bezier coefficients of patches, as [`Surface::patch`] has them.
-    ///
-    /// Places are those of [`Surface::patch_places`], of the surface that the builder was made of.
+    /// Where the patches lie that [`StencilBuilder::patches`] knows: of positions as
+    /// [`Surface::patch_places`] has them. A face-varying primvar has patches of its own, and none if it
+    /// is linear.
+    pub fn patch_places(&self, rings: usize) -> Vec<PatchPlace> {
+        match &self.net {
+            Net::Smooth(of_net, _) => {
+                let is_covered = |place: &PatchPlace| {
+                    !self.surface.is_omitted(self.surface.face_of(place.quad).0)
+                };
+                of_net.patch_places(rings).filter(is_covered).collect()
+            }
+            Net::Linear(_) => Vec::new(),
+        }
+    }
+
+    /// The rows of the Bernstein-Bezier coefficients of patches, as [`Surface::patch`] has them, at
+    /// places of [`StencilBuilder::patch_places`].
     ///
     /// # Errors
     ///
-    /// [`StencilError::Patch`] if a patch is not of this surface, [`StencilError::Linear`] for primvars
-    /// without patches, and for face-varying ones, whose nets have patches of their own.
+    /// [`StencilError::Patch`] if there is no such patch, [`StencilError::Linear`] for linear primvars.
     pub fn patches(&self, places: &[PatchPlace]) -> Result<PatchStencils, StencilError> {
         match &self.net {
             Net::Smooth(_, net) => PatchStencils::new(net, places),
