@@ -10,15 +10,16 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 18] = [
+const LAYERS: [&str; 19] = [
     "point",
     "angle",
-    "parallel",
+    "task",
+    "quadrature",
     "dense",
     "sparse",
     "patch",
-    "mesh",
     "net",
+    "mesh",
     "scheme",
     "rings",
     "cap",

@@ -129,15 +129,15 @@ struct Record {
 
 impl Record {
     fn new(surface: &Surface, placed: PlacedPatch) -> Self {
-        let (face, corner) = surface.face_of(placed.quad);
-        let is_quad = surface.cage().topology().faces().corners(face).len() == 4;
+        let (face, corner) = surface.face_of(placed.quad).expect("patches are in quads");
+        let is_quad = surface.topology().faces().corners(face).len() == 4;
         let center = placed.point.map(|i| &surface.extraordinary_points()[i]);
         Self {
             role: role_name(placed.role),
             face: face.0,
             corner: (!is_quad).then_some(corner),
-            vertex: center.and_then(|p| p.vertex).map(|v| v.0),
-            centre_of: center.and_then(|p| p.face).map(|f| f.0),
+            vertex: center.and_then(|p| p.vertex()).map(|v| v.0),
+            centre_of: center.and_then(|p| p.face()).map(|f| f.0),
             sector: placed.sector,
             ring: ring(placed.role),
             domain: placed.domain,

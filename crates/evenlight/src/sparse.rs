@@ -6,7 +6,7 @@
 //!   weights   a b c d e ...
 //! ```
 
-use crate::parallel::for_each_chunk;
+use crate::task::for_each_chunk;
 
 /// Weights of values, row by row: a sparse matrix in compressed rows.
 ///
@@ -164,8 +164,8 @@ impl Stencils {
         (0..self.num_rows()).flat_map(of_row)
     }
 
-    /// The results for values of N numbers each, with feature `parallel` on all threads: the same
-    /// bits with any number of them.
+    /// The results for values of N numbers each, on the threads of the
+    /// [task](crate::task::Task): the same bits with any number of them.
     ///
     /// # Errors
     ///

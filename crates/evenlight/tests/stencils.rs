@@ -4,13 +4,15 @@
 
 mod common;
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use common::{Random, fans, options};
 use evenlight::cap::{CapKind, CapOptions};
 use evenlight::mesh::{FaceVaryingRule, Interpolation, Primvar};
-use evenlight::stencil::{Order, StencilBuilder, StencilError, Stencils};
-use evenlight::surface::{CreaseRings, Role};
+use evenlight::stencil::{StencilBuilder, StencilError, Stencils};
+use evenlight::surface::{ArrayError, CreaseRings, Layout, Role, row_width};
+use evenlight::task::Task;
 use evenlight::{Cage, FaceId, Mesh, QuadId, SchemeKind, Surface, SurfaceOptions};
 
 /// What results may differ by, as a part of the sum of |weight| |value|.
@@ -61,7 +63,7 @@ fn places(surface: &Surface) -> Vec<Place> {
     let mut random = Random::new(7);
     let mut places = Vec::new();
     for quad in (0..surface.num_quads() as u32).map(QuadId) {
-        if surface.is_omitted(surface.face_of(quad).0) {
+        if surface.is_omitted(surface.face_of(quad).unwrap().0) {
             continue;
         }
         places.extend((0..2).map(|_| (quad, random.unit(), random.unit())));
@@ -81,7 +83,7 @@ fn places(surface: &Surface) -> Vec<Place> {
 ///
 /// In ring l around a point derivatives of order k are (lambda / sigma^k)^l times those of ring 0. A
 /// part of them may cancel: the tangents along a crease have no second derivative along it.
-fn scales(surface: &Surface, places: &[Place], order: Order) -> Vec<f64> {
+fn scales(surface: &Surface, places: &[Place], order: usize) -> Vec<f64> {
     let of_place = |&(quad, u, v): &Place| {
         let points = surface.extraordinary_points().iter().enumerate();
         let sectors = points.flat_map(|(p, point)| point.sectors.iter().map(move |s| (p, s)));
@@ -96,13 +98,14 @@ fn scales(surface: &Surface, places: &[Place], order: Order) -> Vec<f64> {
             is_inside.then(|| (p, along[0].max(along[1]), zoom))
         });
         let Some((p, distance, zoom)) = inside else { return [1.0, 4.0, 16.0] };
-        let (lambda, sigma) = (surface.rings(p).lambda(), surface.rings(p).sigma());
+        let (lambda, sigma) =
+            (surface.rings(p).unwrap().lambda(), surface.rings(p).unwrap().sigma());
         let ring = if distance > 0.0 { (distance.ln() / sigma.ln()).floor() } else { 0.0 };
         let ring = surface.cap_options().map_or(ring, |caps| ring.min(caps.rings as f64));
         let of_order = |k: i32| (lambda / sigma.powi(k)).powf(ring) * (4.0 * zoom).powi(k);
         [1.0, of_order(1), of_order(2)]
     };
-    let orders = &[0, 1, 1, 2, 2, 2][..order.rows()];
+    let orders = &[0, 1, 1, 2, 2, 2][..row_width::<1>(order).unwrap()];
     places.iter().map(of_place).flat_map(|scale| orders.iter().map(move |&k| scale[k])).collect()
 }
 
@@ -127,10 +130,10 @@ fn check<const N: usize>(
 }
 
 /// Rows of positions sum to 1, those of derivatives to 0.
-fn check_sums(name: &str, stencils: &Stencils, order: Order, scales: &[f64]) {
+fn check_sums(name: &str, stencils: &Stencils, order: usize, scales: &[f64]) {
     for (k, (columns, weights)) in stencils.rows().enumerate() {
         assert!(columns.windows(2).all(|pair| pair[0] < pair[1]), "{name}, row {k}: {columns:?}");
-        let expected = if k % order.rows() == 0 { 1.0 } else { 0.0 };
+        let expected = if k % row_width::<1>(order).unwrap() == 0 { 1.0 } else { 0.0 };
         let sum = weights.iter().sum::<f64>();
         let is_exact = (sum - expected).abs() <= 1e-13 * scales[k] || sum.is_nan();
         assert!(is_exact, "{name}, row {k}: {sum}, scale {}", scales[k]);
@@ -149,11 +152,11 @@ fn places_are_those_of_the_surface_for_every_scheme_and_feature() {
             let surface = Surface::build(cage.clone(), options).unwrap();
             let name = format!("{name} {} {:?}", options.scheme.name(), options.creases);
             let places = places(&surface);
-            let builder = StencilBuilder::new(&surface).unwrap();
-            let stencils = builder.places(&places, Order::Second).unwrap();
-            let scales = scales(&surface, &places, Order::Second);
+            let builder = StencilBuilder::of_surface(&surface).unwrap();
+            let stencils = builder.places(&places, 2).unwrap();
+            let scales = scales(&surface, &places, 2);
             check(&name, &stencils, &scales, cage.positions(), &jets(&surface, &places));
-            check_sums(&name, &stencils, Order::Second, &scales);
+            check_sums(&name, &stencils, 2, &scales);
         }
     }
 }
@@ -162,13 +165,14 @@ fn places_are_those_of_the_surface_for_every_scheme_and_feature() {
 fn lower_orders_are_the_first_rows() {
     let surface = common::surface(&common::cage("own_polygons.obj"), SchemeKind::Qas4);
     let places = places(&surface);
-    let builder = StencilBuilder::new(&surface).unwrap();
-    let all = builder.places(&places, Order::Second).unwrap();
-    for order in [Order::Position, Order::First] {
+    let builder = StencilBuilder::of_surface(&surface).unwrap();
+    let all = builder.places(&places, 2).unwrap();
+    for order in [0, 1] {
         let some = builder.places(&places, order).unwrap();
-        assert_eq!(some.num_rows(), order.rows() * places.len());
+        assert_eq!(some.num_rows(), row_width::<1>(order).unwrap() * places.len());
         for (k, row) in some.rows().enumerate() {
-            let same = 6 * (k / order.rows()) + k % order.rows();
+            let same =
+                6 * (k / row_width::<1>(order).unwrap()) + k % row_width::<1>(order).unwrap();
             assert_eq!(all.row(same), Some(row));
         }
     }
@@ -204,9 +208,9 @@ fn places_are_those_of_the_surface_at_any_depth() {
                         .collect::<Vec<_>>()
                 })
                 .collect();
-            let builder = StencilBuilder::new(&surface).unwrap();
-            let stencils = builder.places(&places, Order::Second).unwrap();
-            let scales = scales(&surface, &places, Order::Second);
+            let builder = StencilBuilder::of_surface(&surface).unwrap();
+            let stencils = builder.places(&places, 2).unwrap();
+            let scales = scales(&surface, &places, 2);
             check(
                 options.scheme.name(),
                 &stencils,
@@ -214,7 +218,7 @@ fn places_are_those_of_the_surface_at_any_depth() {
                 cage.positions(),
                 &jets(&surface, &places),
             );
-            check_sums(options.scheme.name(), &stencils, Order::Second, &scales);
+            check_sums(options.scheme.name(), &stencils, 2, &scales);
         }
     }
 }
@@ -226,17 +230,15 @@ fn at_the_point_itself_derivatives_do_not_exist() {
         let mut surface = common::surface(&cage, SchemeKind::Qas4);
         let sectors = surface.extraordinary_points().iter().flat_map(|point| &point.sectors);
         let places: Vec<Place> = sectors.map(|s| (s.quad, s.center[0], s.center[1])).collect();
-        let stencils =
-            StencilBuilder::new(&surface).unwrap().places(&places, Order::Second).unwrap();
+        let stencils = StencilBuilder::of_surface(&surface).unwrap().places(&places, 2).unwrap();
         let scales = vec![1.0; stencils.num_rows()];
         let expected = jets(&surface, &places);
         assert!(expected.iter().filter(|p| p[0].is_nan()).count() == 5 * places.len());
         check(&name, &stencils, &scales, cage.positions(), &expected);
         surface.set_caps(Some(CapOptions { rings: 1, ..CapOptions::default() })).unwrap();
-        let stencils =
-            StencilBuilder::new(&surface).unwrap().places(&places, Order::Second).unwrap();
+        let stencils = StencilBuilder::of_surface(&surface).unwrap().places(&places, 2).unwrap();
         assert!(stencils.weights().iter().all(|w| w.is_finite()), "{name}");
-        let scales = self::scales(&surface, &places, Order::Second);
+        let scales = self::scales(&surface, &places, 2);
         let scales: Vec<f64> = scales.iter().map(|s| s.max(100.0)).collect();
         check(&name, &stencils, &scales, cage.positions(), &jets(&surface, &places));
     }
@@ -255,12 +257,12 @@ fn places_in_caps_are_those_of_the_surface() {
                 }
                 let name = format!("{name} {} {rings} {kind:?}", options.scheme.name());
                 let places = places(&surface);
-                let builder = StencilBuilder::new(&surface).unwrap();
-                let stencils = builder.places(&places, Order::Second).unwrap();
+                let builder = StencilBuilder::of_surface(&surface).unwrap();
+                let stencils = builder.places(&places, 2).unwrap();
                 let scales: Vec<f64> =
-                    scales(&surface, &places, Order::Second).iter().map(|x| 4.0 * x).collect();
+                    scales(&surface, &places, 2).iter().map(|x| 4.0 * x).collect();
                 check(&name, &stencils, &scales, cage.positions(), &jets(&surface, &places));
-                check_sums(&name, &stencils, Order::Second, &scales);
+                check_sums(&name, &stencils, 2, &scales);
             }
         }
     }
@@ -278,20 +280,20 @@ fn patches_are_those_of_the_surface() {
                     [Role::Ring(1), Role::Ring(5), Role::Ring(12), Role::Regular, Role::Cap];
                 let places: Vec<_> =
                     surface.patch_places(12).filter(|place| wanted.contains(&place.role)).collect();
-                let builder = StencilBuilder::new(&surface).unwrap();
-                assert!(builder.patch_places(12).len() >= places.len());
+                let builder = StencilBuilder::of_surface(&surface).unwrap();
+                assert!(builder.patch_places(12).unwrap().len() >= places.len());
                 let patches = builder.patches(&places).unwrap();
                 let name = format!("{name} {} {caps:?}", options.scheme.name());
                 let mut expected = Vec::new();
                 for (k, place) in places.iter().enumerate() {
-                    let patch = surface.patch(place);
+                    let patch = surface.patch(place).unwrap();
                     assert_eq!(patch.degree(), [patches.degree(k).unwrap(); 2], "{name}");
                     assert_eq!(patches.rows(k).unwrap().start, expected.len());
                     expected.extend(patch.coefs());
                 }
                 let ones = vec![1.0; expected.len()];
                 check(&name, patches.stencils(), &ones, cage.positions(), &expected);
-                check_sums(&name, patches.stencils(), Order::Position, &ones);
+                check_sums(&name, patches.stencils(), 0, &ones);
             }
         }
     }
@@ -303,7 +305,7 @@ fn patches_are_those_of_the_surface() {
 fn refined_vertices_are_those_of_the_reference() {
     for (name, cage) in cages() {
         let surface = common::surface(&cage, SchemeKind::CatmullClark);
-        let builder = StencilBuilder::new(&surface).unwrap();
+        let builder = StencilBuilder::of_surface(&surface).unwrap();
         let mut mesh = Mesh {
             positions: cage.positions().to_vec(),
             faces: cage.topology().faces().clone(),
@@ -323,7 +325,7 @@ fn refined_vertices_are_those_of_the_reference() {
                 let (a, b) = (found[a.index()], mesh.positions[b.index()]);
                 assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-13), "{name}: {a:?}, not {b:?}");
             }
-            check_sums(&name, &refined.stencils, Order::Position, &vec![1.0; found.len()]);
+            check_sums(&name, &refined.stencils, 0, &vec![1.0; found.len()]);
             if steps < 3 {
                 mesh = common::refine::refine(&mesh);
             }
@@ -337,7 +339,7 @@ fn steps_follow_each_other() {
     for cage in ["own_polygons.obj", "features/boundary_edge_only.obj"].map(common::cage) {
         let refined = |cage: &Arc<Cage>, steps: usize| {
             let surface = common::surface(cage, SchemeKind::Qas4);
-            StencilBuilder::new(&surface).unwrap().refined(steps).unwrap()
+            StencilBuilder::of_surface(&surface).unwrap().refined(steps).unwrap()
         };
         let (once, twice) = (refined(&cage, 1), refined(&cage, 2));
         let positions = once.stencils.apply(cage.positions()).unwrap();
@@ -379,7 +381,7 @@ fn distance_from_limit(builder: &StencilBuilder, primvar: &Primvar, steps: usize
             ((QuadId(parent.0), u, v), faces.corners(f)[k].index())
         })
         .unzip();
-    let stencils = builder.places(&places, Order::Position).unwrap();
+    let stencils = builder.places(&places, 0).unwrap();
     let mut limits = vec![0.0; places.len() * width];
     stencils.apply_flat(width, &primvar.values, &mut limits).unwrap();
     let numbers = rows.iter().flat_map(|&row| (0..width).map(move |k| row * width + k));
@@ -424,7 +426,7 @@ fn primvars_are_those_of_the_surface() {
             for (k, primvar) in surface.primvars().iter().enumerate() {
                 let name = format!("{name} {rule:?} {} {}", scheme.name(), primvar.name);
                 let builder = StencilBuilder::of_primvar(&surface, k).unwrap();
-                let stencils = builder.places(&places, Order::Second).unwrap();
+                let stencils = builder.places(&places, 2).unwrap();
                 let (values, width) = (&primvar.values, primvar.width);
                 assert_eq!(stencils.num_columns() * width, values.len());
                 let mut results = vec![0.0; stencils.num_rows() * width];
@@ -432,8 +434,7 @@ fn primvars_are_those_of_the_surface() {
                 // Channels have points of their own at seams, at which second derivatives grow.
                 let largest = values.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
                 for (&(quad, u, v), found) in places.iter().zip(results.chunks(6 * width)) {
-                    let jet = surface.eval_primvar(k, quad, u, v).unwrap();
-                    let rows = [jet.value, jet.du, jet.dv, jet.duu, jet.duv, jet.dvv];
+                    let rows = surface.eval_primvar::<4>(k, quad, u, v).unwrap().rows();
                     let size = rows.as_flattened().iter().fold(largest, |m: f64, x| m.max(x.abs()));
                     for (row, found) in rows.iter().zip(found.chunks(width)) {
                         let close = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e2 * ROUNDING * size;
@@ -458,7 +459,7 @@ fn refined_primvars_approach_their_limits() {
         for (k, primvar) in surface.primvars().iter().enumerate() {
             let builder = StencilBuilder::of_primvar(&surface, k).unwrap();
             let [coarse, fine] = [2, 4].map(|steps| distance_from_limit(&builder, primvar, steps));
-            let name = format!("{name} {:?} {}", surface.cage().tags().face_varying, primvar.name);
+            let name = format!("{name} {:?} {}", surface.tags().face_varying, primvar.name);
             assert!(fine <= 0.75 * 0.75 * coarse + 1e-14, "{name}: {coarse} {fine}");
         }
     }
@@ -471,11 +472,12 @@ fn patches_of_primvars_have_the_limits() {
         let surface = Surface::build(cage, options(SchemeKind::Qas4)).unwrap();
         for (k, primvar) in surface.primvars().iter().enumerate() {
             let builder = StencilBuilder::of_primvar(&surface, k).unwrap();
-            let places = builder.patch_places(2);
             if primvar.interpolation == Interpolation::Varying {
-                assert_eq!(builder.patches(&places).unwrap_err(), StencilError::Linear);
+                assert_eq!(builder.patch_places(2).unwrap_err(), StencilError::Linear);
+                assert_eq!(builder.patches(&[]).unwrap_err(), StencilError::Linear);
                 continue;
             }
+            let places = builder.patch_places(2).unwrap();
             let patches = builder.patches(&places).unwrap();
             let width = primvar.width;
             let mut coefs = vec![0.0; patches.stencils().num_rows() * width];
@@ -485,7 +487,7 @@ fn patches_of_primvars_have_the_limits() {
                 let row = patches.rows(k).unwrap().start;
                 let [[u, _], [v, _]] = place.domain;
                 let mut limit = vec![0.0; width];
-                let stencils = builder.places(&[(place.quad, u, v)], Order::Position).unwrap();
+                let stencils = builder.places(&[(place.quad, u, v)], 0).unwrap();
                 stencils.apply_flat(width, &primvar.values, &mut limit).unwrap();
                 let found = &coefs[row * width..][..width];
                 let is_same = limit.iter().zip(found).all(|(a, b)| (a - b).abs() < 1e-12);
@@ -509,7 +511,7 @@ fn a_regular_grid_is_reproduced() {
     let surface = Surface::build(cage, SurfaceOptions::default()).unwrap();
     // The middle face, from (2,3).
     let place = (surface.quad(FaceId(2 * n + 3), 0).unwrap(), 0.25, 0.75);
-    let stencils = StencilBuilder::new(&surface).unwrap().places(&[place], Order::Second).unwrap();
+    let stencils = StencilBuilder::of_surface(&surface).unwrap().places(&[place], 2).unwrap();
     let (x, y) = (2.25, 3.75);
     let expected =
         [[x * x + 1.0 / 3.0, x * y], [2.0 * x, y], [0.0, x], [2.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
@@ -523,16 +525,15 @@ fn a_regular_grid_is_reproduced() {
 fn bad_input_is_an_error() {
     let cage = common::cage("features/holes.obj");
     let surface = common::surface(&cage, SchemeKind::Qas4);
-    let builder = StencilBuilder::new(&surface).unwrap();
-    let error =
-        |place: Place| builder.places(&[(QuadId(0), 0.5, 0.5), place], Order::First).unwrap_err();
+    let builder = StencilBuilder::of_surface(&surface).unwrap();
+    let error = |place: Place| builder.places(&[(QuadId(0), 0.5, 0.5), place], 1).unwrap_err();
     let quad = QuadId(surface.num_quads() as u32);
     assert_eq!(error((quad, 0.5, 0.5)), StencilError::Quad { place: 1, quad });
     assert_eq!(error((QuadId(0), f64::NAN, 0.5)), StencilError::Parameter { place: 1 });
     let hole = surface.quad(surface.omitted_faces()[0], 0).unwrap();
     assert_eq!(error((hole, 0.5, 0.5)), StencilError::Omitted { place: 1, quad: hole });
-    let inside = builder.places(&[(QuadId(0), 0.0, 1.0)], Order::Second).unwrap();
-    let clamped = builder.places(&[(QuadId(0), f64::NEG_INFINITY, 7.0)], Order::Second).unwrap();
+    let inside = builder.places(&[(QuadId(0), 0.0, 1.0)], 2).unwrap();
+    let clamped = builder.places(&[(QuadId(0), f64::NEG_INFINITY, 7.0)], 2).unwrap();
     assert_eq!(inside, clamped);
     let missing = StencilBuilder::of_primvar(&surface, 3).unwrap_err();
     assert_eq!(missing, StencilError::Primvar { primvar: 3 });
@@ -543,22 +544,54 @@ fn bad_input_is_an_error() {
     let places: Vec<_> = other.patch_places(2).collect();
     let patch = places.iter().position(|place| builder.patches(&[*place]).is_err()).unwrap();
     assert_eq!(builder.patches(&places).unwrap_err(), StencilError::Patch { patch });
-    assert_eq!(builder.places(&[], Order::First).unwrap().num_rows(), 0);
+    assert_eq!(builder.places(&[], 1).unwrap().num_rows(), 0);
 }
 
-#[cfg(feature = "parallel")]
 #[test]
 fn the_number_of_threads_does_not_change_a_byte() {
     let surface = common::surface(&common::cage("own_blob_quadriflow_1500.obj"), SchemeKind::Qas4);
     let places: Vec<Place> = std::iter::repeat_n(places(&surface), 4).flatten().collect();
-    let made = [1, 2, 5].map(|num_threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
-        pool.install(|| {
-            let builder = StencilBuilder::new(&surface).unwrap();
-            let rows = builder.places(&places, Order::First).unwrap();
-            let results = rows.apply(surface.cage().positions()).unwrap();
+    let made = [1, 2, 5].map(|threads| {
+        Task::new().threads(threads).run(|| {
+            let builder = StencilBuilder::of_surface(&surface).unwrap();
+            let rows = builder.places(&places, 1).unwrap();
+            let results = rows.apply(surface.positions()).unwrap();
             (builder.refined(1).unwrap().stencils, rows, results)
         })
     });
     assert!(made[0] == made[1] && made[1] == made[2]);
+}
+
+#[test]
+fn who_watches_may_stop_the_work() {
+    let surface = common::surface(&common::cage("own_polygons.obj"), SchemeKind::Qas4);
+    let builder = StencilBuilder::of_surface(&surface).unwrap();
+    let task = Task::new().watch(|_| ControlFlow::Break(()));
+    let stopped = task.run(|| builder.places(&[(QuadId(0), 0.5, 0.5)], 1));
+    assert_eq!(stopped.unwrap_err(), StencilError::Cancelled);
+}
+
+/// The layout is enough: no values are needed, and arrays are the same places.
+#[test]
+fn stencils_are_of_the_layout() {
+    let cage = common::cage("own_polygons.obj");
+    let layout = Arc::new(Layout::new(&cage, SurfaceOptions::default()).unwrap());
+    let caps = Some(CapOptions { rings: 2, ..CapOptions::default() });
+    let mut surface = Surface::of_cage(&layout, &cage).unwrap();
+    surface.set_caps(caps).unwrap();
+    let places = places(&surface);
+    let by_layout = StencilBuilder::new(&layout, caps).unwrap();
+    let by_surface = StencilBuilder::of_surface(&surface).unwrap().places(&places, 1).unwrap();
+    assert_eq!(by_layout.places(&places, 1).unwrap(), by_surface);
+    let quads: Vec<u32> = places.iter().map(|place| place.0.0).collect();
+    let uv: Vec<[f64; 2]> = places.iter().map(|&(_, u, v)| [u, v]).collect();
+    assert_eq!(by_layout.place_arrays(&quads, &uv, 1).unwrap(), by_surface);
+    let expected = ArrayError::Length { what: "uv", expected: quads.len(), found: 1 };
+    let error = by_layout.place_arrays(&quads, &uv[..1], 1).unwrap_err();
+    assert_eq!(error, StencilError::Array(expected));
+    let error = by_layout.places(&places, 3).unwrap_err();
+    assert_eq!(error, StencilError::Array(ArrayError::Order { order: 3 }));
+    let kind = CapKind::Bi3;
+    let caps = Some(CapOptions { rings: 2, kind });
+    assert!(matches!(StencilBuilder::new(&layout, caps), Err(StencilError::Cap(_))));
 }

@@ -9,11 +9,13 @@
 //!   vertex of level 1 = sum of mask * columns               in a row
 //! ```
 
+use std::ops::Range;
+
 use super::StencilError;
 use crate::mesh::VertexId;
 use crate::mesh::refine::Mask;
-use crate::parallel::map_indexed;
 use crate::sparse::Stencils;
+use crate::task::{Steps, map_indexed};
 
 /// The columns of the stencils over a net, and its refined vertices as rows of them.
 #[derive(Debug)]
@@ -96,20 +98,28 @@ impl Columns {
     }
 }
 
-/// So many places or vertices are a task.
-const TASK: usize = 1 << 12;
+/// So many places or vertices are a part, and so many parts are made between two steps.
+const PART: usize = 1 << 12;
+const PARTS_OF_A_STEP: usize = 1 << 6;
 
-/// The rows of `count` places, made by `rows` for a range at a time, with feature `parallel` on all
-/// threads.
+/// The rows of `count` places, made by `rows` for a range at a time.
 pub(super) fn in_parts(
     num_columns: usize,
     count: usize,
-    rows: impl Fn(std::ops::Range<usize>) -> Result<Stencils, StencilError> + Sync,
+    rows: impl Fn(Range<usize>) -> Result<Stencils, StencilError> + Sync,
 ) -> Result<Stencils, StencilError> {
-    let part = |k: usize| rows(TASK * k..usize::min(TASK * (k + 1), count));
-    let parts: Result<Vec<Stencils>, StencilError> =
-        map_indexed(count.div_ceil(TASK), part).into_iter().collect();
-    Stencils::joined(num_columns, parts?).ok_or(StencilError::TooLarge)
+    let num_parts = count.div_ceil(PART);
+    let part = |k: usize| rows(PART * k..usize::min(PART * (k + 1), count));
+    let mut steps = Steps::new("stencils", num_parts.div_ceil(PARTS_OF_A_STEP))?;
+    let mut parts = Vec::with_capacity(num_parts);
+    for first in (0..num_parts).step_by(PARTS_OF_A_STEP) {
+        let made = map_indexed(PARTS_OF_A_STEP.min(num_parts - first), |k| part(first + k));
+        for rows in made {
+            parts.push(rows?);
+        }
+        steps.step()?;
+    }
+    Stencils::joined(num_columns, parts).ok_or(StencilError::TooLarge)
 }
 
 /// R rows in the making, which share their columns.

@@ -1,6 +1,8 @@
 //! Why there are no stencils.
 
-use crate::surface::QuadId;
+use crate::cap::CapError;
+use crate::surface::{ArrayError, QuadId};
+use crate::task::Cancelled;
 
 /// Why stencils could not be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -54,7 +56,22 @@ pub enum StencilError {
         /// The most that there may be.
         most: usize,
     },
+    /// There are no such caps.
+    #[error(transparent)]
+    Cap(#[from] CapError),
+    /// The order of derivatives is none, or arrays do not fit together.
+    #[error(transparent)]
+    Array(#[from] ArrayError),
+    /// Who watches the work stopped it ([`Task::watch`](crate::task::Task::watch)).
+    #[error("the work was cancelled")]
+    Cancelled,
     /// There are more vertices, rows or weights than 32 bits can number.
     #[error("32 bits cannot number so many weights; ask for fewer rows at a time")]
     TooLarge,
+}
+
+impl From<Cancelled> for StencilError {
+    fn from(Cancelled: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }

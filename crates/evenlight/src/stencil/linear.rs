@@ -3,7 +3,7 @@
 //!
 //! Refinement puts vertices in the middles of edges and the centres of faces, and moves none.
 
-use std::borrow::Cow;
+use std::sync::Arc;
 
 use super::basis::{factors, product};
 use super::columns::{Columns, Sums};
@@ -13,8 +13,8 @@ use crate::patch::basis::BasisJet;
 
 /// The faces of a linear primvar, with vertices of its own.
 #[derive(Debug)]
-pub(super) struct LinearNet<'a> {
-    pub(super) topology: Cow<'a, Topology>,
+pub(super) struct LinearNet {
+    pub(super) topology: Arc<Topology>,
     pub(super) columns: Columns,
 }
 
@@ -23,7 +23,7 @@ fn ends(t: f64) -> BasisJet<2> {
     [[1.0 - t, t], [-1.0, 1.0], [0.0, 0.0]]
 }
 
-impl LinearNet<'_> {
+impl LinearNet {
     /// Enters the R rows of a place of the quad at a corner of a face.
     pub(super) fn place<const R: usize>(
         &self,

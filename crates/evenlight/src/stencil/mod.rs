@@ -14,7 +14,7 @@
 //!
 //! ```
 //! use evenlight::io::obj;
-//! use evenlight::stencil::{Order, StencilBuilder};
+//! use evenlight::stencil::StencilBuilder;
 //! use evenlight::{FaceId, Surface, SurfaceOptions};
 //!
 //! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
@@ -23,8 +23,8 @@
 //! let surface = Surface::build(cage, SurfaceOptions::default())?;
 //! let quad = surface.quad(FaceId(1), 0).expect("face 1 is a quad");
 //!
-//! let stencils = StencilBuilder::new(&surface)?.places(&[(quad, 0.3, 0.6)], Order::First)?;
-//! let [p, du, dv] = stencils.apply(surface.cage().positions())?[..] else { panic!("3 rows") };
+//! let stencils = StencilBuilder::of_surface(&surface)?.places(&[(quad, 0.3, 0.6)], 1)?;
+//! let [p, du, dv] = stencils.apply(surface.positions())?[..] else { panic!("3 rows") };
 //! let jet = surface.eval_first(quad, 0.3, 0.6).expect("there is a surface");
 //! let distance = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
 //! assert!(distance(p, jet.p) + distance(du, jet.du) + distance(dv, jet.dv) < 1e-13);
@@ -54,73 +54,63 @@ mod refined;
 mod smooth;
 mod unit;
 
-use std::borrow::Cow;
+use std::sync::Arc;
 
 pub use crate::sparse::{LengthError, Stencils};
 pub use error::StencilError;
 pub use patches::PatchStencils;
 pub use refined::RefinedCage;
 
+use crate::cap::CapOptions;
 use crate::mesh::channel::ChannelNet;
-use crate::mesh::{Interpolation, Primvar, Topology};
-use crate::surface::{PatchPlace, QuadId, Surface};
+use crate::mesh::{FaceVaryingRule, Interpolation, Primvar, Topology};
+use crate::surface::{ArrayError, Layout, PatchPlace, QuadId, Surface, own_layout, row_width};
 use columns::{Columns, Sums, in_parts};
 use linear::LinearNet;
 use refined::Masks;
 use smooth::SmoothNet;
 
-/// Which derivatives have rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Order {
-    /// One row: the position.
-    Position,
-    /// Three rows: position, derivative in u, derivative in v.
-    First,
-    /// Six rows: these, and the second derivatives in u twice, in u and v, in v twice.
-    Second,
-}
-
-impl Order {
-    /// The number of rows of a place.
-    pub fn rows(self) -> usize {
-        match self {
-            Self::Position => 1,
-            Self::First => 3,
-            Self::Second => 6,
-        }
-    }
-}
-
-/// Makes stencils of a surface or of one of its primvars, and keeps what they have in common: the
+/// Makes stencils of surfaces over a layout, or of a primvar, and keeps what they have in common: the
 /// refined vertices that patches need, and the surfaces of unit nets, for every kind of extraordinary
 /// point once.
 ///
 /// After that a place costs what its evaluation costs for as many numbers as its rows have weights,
 /// about 16 in regular faces.
 #[derive(Debug)]
-pub struct StencilBuilder<'a> {
-    /// The surface of the positions.
-    surface: &'a Surface,
-    net: Net<'a>,
+pub struct StencilBuilder {
+    /// The layout whose quads places are in.
+    layout: Arc<Layout>,
+    net: Net,
 }
 
 /// What values are interpolated by.
 #[derive(Debug)]
-enum Net<'a> {
-    /// The surface, or that of a face-varying primvar.
-    Smooth(&'a Surface, Box<SmoothNet<'a>>),
-    Linear(LinearNet<'a>),
+enum Net {
+    /// Surfaces over a layout, of a face-varying primvar over its own.
+    Smooth(Box<SmoothNet>),
+    Linear(LinearNet),
 }
 
-impl<'a> StencilBuilder<'a> {
-    /// For positions, and primvars with [`Interpolation::Vertex`]: the columns are the vertices.
+impl StencilBuilder {
+    /// For positions over a layout and for primvars with [`Interpolation::Vertex`], closed by such caps
+    /// if there are to be some: the columns are the vertices.
     ///
     /// # Errors
     ///
-    /// [`StencilError::TooLarge`], if the cage is.
-    pub fn new(surface: &'a Surface) -> Result<Self, StencilError> {
-        let columns = Columns::of_vertices(surface.cage().positions().len());
-        Self::smooth(surface, surface, columns)
+    /// [`StencilError::Cap`] if there are no such caps; [`StencilError::TooLarge`] if the cage is.
+    pub fn new(layout: &Arc<Layout>, caps: Option<CapOptions>) -> Result<Self, StencilError> {
+        let columns = Columns::of_vertices(layout.num_vertices());
+        let net = SmoothNet::new(layout, caps, columns)?;
+        Ok(Self { layout: layout.clone(), net: Net::Smooth(Box::new(net)) })
+    }
+
+    /// [`StencilBuilder::new`] with the layout and the caps of a surface.
+    ///
+    /// # Errors
+    ///
+    /// [`StencilError::TooLarge`] if the cage is.
+    pub fn of_surface<const N: usize>(surface: &Surface<N>) -> Result<Self, StencilError> {
+        Self::new(surface.layout(), surface.cap_options())
     }
 
     /// For a primvar, by its index: the columns are the vertices, or of face-varying ones the values.
@@ -128,42 +118,31 @@ impl<'a> StencilBuilder<'a> {
     /// # Errors
     ///
     /// [`StencilError::Primvar`] if there is no such primvar, [`StencilError::TooLarge`].
-    pub fn of_primvar(surface: &'a Surface, primvar: usize) -> Result<Self, StencilError> {
+    pub fn of_primvar(surface: &Surface, primvar: usize) -> Result<Self, StencilError> {
         let missing = StencilError::Primvar { primvar };
         let of_cage = surface.primvars().get(primvar).ok_or(missing.clone())?;
-        let topology = surface.cage().topology();
-        match of_cage.interpolation {
-            Interpolation::Vertex => Self::new(surface),
+        let layout = surface.layout();
+        let net = match of_cage.interpolation {
+            Interpolation::Vertex => return Self::of_surface(surface),
             Interpolation::Varying => {
-                let columns = Columns::of_vertices(topology.num_vertices());
-                let net = LinearNet { topology: Cow::Borrowed(topology), columns };
-                Ok(Self { surface, net: Net::Linear(net) })
+                let columns = Columns::of_vertices(layout.num_vertices());
+                Net::Linear(LinearNet { topology: layout.shared_topology().clone(), columns })
+            }
+            Interpolation::FaceVarying if layout.tags().face_varying == FaceVaryingRule::All => {
+                Net::Linear(linear_net(layout, of_cage).ok_or(missing)?)
             }
             Interpolation::FaceVarying => {
-                let net = channel_net(surface, of_cage);
-                let columns = value_columns(of_cage, &net);
-                if let Some(channel) = surface.smooth_channel(primvar) {
-                    return Self::smooth(surface, channel, columns);
-                }
-                let topology = Topology::build(net.faces, net.values.len()).map_err(|_| missing)?;
-                let net = LinearNet { topology: Cow::Owned(topology), columns };
-                Ok(Self { surface, net: Net::Linear(net) })
+                let (own, values) = own_layout(layout, of_cage).ok_or(missing)?;
+                let columns = value_columns(of_cage, values);
+                Net::Smooth(Box::new(SmoothNet::new(&own, surface.cap_options(), columns)?))
             }
-        }
-    }
-
-    fn smooth(
-        surface: &'a Surface,
-        of_net: &'a Surface,
-        columns: Columns,
-    ) -> Result<Self, StencilError> {
-        let net = SmoothNet::new(of_net, columns)?;
-        Ok(Self { surface, net: Net::Smooth(of_net, Box::new(net)) })
+        };
+        Ok(Self { layout: layout.clone(), net })
     }
 
     fn columns(&self) -> &Columns {
         match &self.net {
-            Net::Smooth(_, net) => net.columns(),
+            Net::Smooth(net) => net.columns(),
             Net::Linear(net) => &net.columns,
         }
     }
@@ -173,34 +152,62 @@ impl<'a> StencilBuilder<'a> {
         self.columns().count()
     }
 
-    /// The rows of places on the limit surface: quad, u and v, which are clamped to 0..1. Each place
-    /// has [`Order::rows`] rows, one after the other.
+    /// The rows of places on the limit surface: quad, u and v, which are clamped to 0..1. With derivatives
+    /// up to `order` 0, 1 or 2 each place has 1, 3 or 6 rows: p, du, dv, duu, duv, dvv.
     ///
     /// # Errors
     ///
     /// [`StencilError`] with the first place that is none: there is no such quad, no surface over it,
-    /// or a parameter is NaN.
+    /// or a parameter is NaN. [`ArrayError::Order`].
     pub fn places(
         &self,
         places: &[(QuadId, f64, f64)],
-        order: Order,
+        order: usize,
     ) -> Result<Stencils, StencilError> {
-        match order {
-            Order::Position => self.rows_of::<1>(places),
-            Order::First => self.rows_of::<3>(places),
-            Order::Second => self.rows_of::<6>(places),
+        self.rows(places.len(), |k| places[k], order)
+    }
+
+    /// [`StencilBuilder::places`] of arrays of the numbers of quads and of parameters.
+    ///
+    /// # Errors
+    ///
+    /// As of [`StencilBuilder::places`], and [`ArrayError::Length`].
+    pub fn place_arrays(
+        &self,
+        quads: &[u32],
+        uv: &[[f64; 2]],
+        order: usize,
+    ) -> Result<Stencils, StencilError> {
+        if quads.len() != uv.len() {
+            let (expected, found) = (quads.len(), uv.len());
+            return Err(ArrayError::Length { what: "uv", expected, found }.into());
+        }
+        self.rows(quads.len(), |k| (QuadId(quads[k]), uv[k][0], uv[k][1]), order)
+    }
+
+    fn rows(
+        &self,
+        count: usize,
+        place: impl Fn(usize) -> (QuadId, f64, f64) + Sync,
+        order: usize,
+    ) -> Result<Stencils, StencilError> {
+        match row_width::<1>(order)? {
+            1 => self.rows_of::<1>(count, place),
+            3 => self.rows_of::<3>(count, place),
+            _ => self.rows_of::<6>(count, place),
         }
     }
 
     fn rows_of<const R: usize>(
         &self,
-        places: &[(QuadId, f64, f64)],
+        count: usize,
+        place: impl Fn(usize) -> (QuadId, f64, f64) + Sync,
     ) -> Result<Stencils, StencilError> {
         let num_columns = self.num_columns();
-        in_parts(num_columns, places.len(), |range| {
+        in_parts(num_columns, count, |range| {
             let (mut rows, mut sums) = (Stencils::empty(num_columns), Sums::<R>::new(num_columns));
-            for place in range {
-                self.enter(place, places[place], &mut sums)?;
+            for k in range {
+                self.enter(k, place(k), &mut sums)?;
                 sums.move_to(&mut rows)?;
             }
             Ok(rows)
@@ -214,17 +221,14 @@ impl<'a> StencilBuilder<'a> {
         (quad, u, v): (QuadId, f64, f64),
         sums: &mut Sums<R>,
     ) -> Result<(), StencilError> {
-        if quad.0 as usize >= self.surface.num_quads() {
-            return Err(StencilError::Quad { place, quad });
-        }
+        let on = self.layout.face_of(quad).ok_or(StencilError::Quad { place, quad })?;
         if u.is_nan() || v.is_nan() {
             return Err(StencilError::Parameter { place });
         }
         let at = [u.clamp(0.0, 1.0), v.clamp(0.0, 1.0)];
-        let on = self.surface.face_of(quad);
-        let is_covered = !self.surface.is_omitted(on.0)
+        let is_covered = !self.layout.is_omitted(on.0)
             && match &self.net {
-                Net::Smooth(_, net) => net.place(quad, at, sums)?,
+                Net::Smooth(net) => net.place(quad, at, sums)?,
                 Net::Linear(net) => {
                     net.place(on, at, sums);
                     true
@@ -236,16 +240,15 @@ impl<'a> StencilBuilder<'a> {
     /// Where the patches lie that [`StencilBuilder::patches`] knows: of positions as
     /// [`Surface::patch_places`] has them. A face-varying primvar has patches of its own, and none if it
     /// is linear.
-    pub fn patch_places(&self, rings: usize) -> Vec<PatchPlace> {
-        match &self.net {
-            Net::Smooth(of_net, _) => {
-                let is_covered = |place: &PatchPlace| {
-                    !self.surface.is_omitted(self.surface.face_of(place.quad).0)
-                };
-                of_net.patch_places(rings).filter(is_covered).collect()
-            }
-            Net::Linear(_) => Vec::new(),
-        }
+    ///
+    /// # Errors
+    ///
+    /// [`StencilError::Linear`] for linear primvars.
+    pub fn patch_places(&self, rings: usize) -> Result<Vec<PatchPlace>, StencilError> {
+        let Net::Smooth(net) = &self.net else { return Err(StencilError::Linear) };
+        let mut places = net.patch_places(rings)?;
+        places.retain(|place| !self.layout.is_omitted(self.layout.face_of_quad(place.quad).0));
+        Ok(places)
     }
 
     /// The rows of the Bernstein-Bezier coefficients of patches, as [`Surface::patch`] has them, at
@@ -256,7 +259,7 @@ impl<'a> StencilBuilder<'a> {
     /// [`StencilError::Patch`] if there is no such patch, [`StencilError::Linear`] for linear primvars.
     pub fn patches(&self, places: &[PatchPlace]) -> Result<PatchStencils, StencilError> {
         match &self.net {
-            Net::Smooth(_, net) => PatchStencils::new(net, places),
+            Net::Smooth(net) => PatchStencils::new(net, places),
             Net::Linear(_) => Err(StencilError::Linear),
         }
     }
@@ -270,24 +273,24 @@ impl<'a> StencilBuilder<'a> {
     pub fn refined(&self, steps: usize) -> Result<RefinedCage, StencilError> {
         let columns = self.columns().without_levels();
         match &self.net {
-            Net::Smooth(surface, _) => {
-                let masks = Masks::Smooth(&surface.plan().sharpness[0]);
-                refined::refined(surface.cage().topology(), &masks, columns, steps)
+            Net::Smooth(net) => {
+                let masks = Masks::Smooth(&net.layout().plan().sharpness[0]);
+                refined::refined(net.layout().topology(), &masks, columns, steps)
             }
             Net::Linear(net) => refined::refined(&net.topology, &Masks::Linear, columns, steps),
         }
     }
 }
 
-/// The net of a face-varying primvar.
-fn channel_net(surface: &Surface, primvar: &Primvar) -> ChannelNet {
-    let cage = surface.cage();
-    let boundary = surface.options().boundary.unwrap_or(cage.tags().boundary);
-    ChannelNet::new(cage, primvar, boundary)
+/// The net of a linear face-varying primvar.
+fn linear_net(layout: &Layout, primvar: &Primvar) -> Option<LinearNet> {
+    let boundary = layout.options().boundary.unwrap_or(layout.tags().boundary);
+    let net = ChannelNet::new(layout.topology(), layout.tags(), primvar, boundary);
+    let topology = Topology::build(net.faces, net.values.len()).ok()?;
+    Some(LinearNet { topology: Arc::new(topology), columns: value_columns(primvar, net.values) })
 }
 
-/// The columns of a face-varying primvar: its values.
-fn value_columns(primvar: &Primvar, net: &ChannelNet) -> Columns {
-    let count = primvar.values.len() / usize::max(primvar.width, 1);
-    Columns::of_values(count, net.values.clone())
+/// The columns of a face-varying primvar: its values, of which vertices have these.
+fn value_columns(primvar: &Primvar, of_vertex: Vec<u32>) -> Columns {
+    Columns::of_values(primvar.values.len() / usize::max(primvar.width, 1), of_vertex)
 }

@@ -16,7 +16,7 @@ pub struct PatchStencils {
 }
 
 impl PatchStencils {
-    pub(super) fn new(net: &SmoothNet<'_>, places: &[PatchPlace]) -> Result<Self, StencilError> {
+    pub(super) fn new(net: &SmoothNet, places: &[PatchPlace]) -> Result<Self, StencilError> {
         let mut firsts = vec![0];
         for (patch, place) in places.iter().enumerate() {
             let rows = net.patch(place)?.ok_or(StencilError::Patch { patch })?;

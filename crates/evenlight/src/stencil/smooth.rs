@@ -1,6 +1,6 @@
 //! Rows of a surface: of places on it and of the coefficients of its patches.
 //!
-//! A place is a few weights of the nodes of one net, found as [`Surface::eval`] finds the piece:
+//! A place is a few weights of the nodes of one net, found as [`Surface::eval`](crate::Surface::eval) finds the piece:
 //!
 //! ```text
 //!   regular piece    4 x 4 nodes     products of B-splines
@@ -14,18 +14,19 @@ use super::StencilError;
 use super::basis::{factors, product, turned, turned_coefficient};
 use super::columns::{Columns, Sums};
 use super::unit::{Table, UnitNets};
-use crate::mesh::isolation::{CORNERS, Piece, Plan};
-use crate::mesh::{RegularNet, Topology, VertexId, cnet_vertices, fan_vertices};
+use crate::cap::{CapError, CapOptions};
+use crate::mesh::isolation::{CORNERS, Piece};
+use crate::mesh::{RegularNet, VertexId, cnet_vertices, fan_vertices};
 use crate::patch::MAX_DEGREE;
 use crate::patch::basis::{BasisJet, CUBIC_B_SPLINE_TO_BB, bernstein, cubic_b_spline};
 use crate::rings::{power, ring_of, scaled_up};
-use crate::surface::{PatchPlace, QuadId, RingPatch, Source, Surface, quadrant, to_sector};
+use crate::surface::{CapPlan, Layout, PatchPlace, QuadId, RingPatch, Source, quadrant, to_sector};
 
-/// The net of a surface, and what is kept of it while stencils are made.
+/// The net of surfaces over a layout, and what is kept of it while stencils are made.
 #[derive(Debug)]
-pub(super) struct SmoothNet<'a> {
-    plan: &'a Plan,
-    topology: &'a Topology,
+pub(super) struct SmoothNet {
+    layout: Arc<Layout>,
+    caps: Option<CapOptions>,
     columns: Columns,
     units: Vec<UnitNets>,
     points: Vec<PointNet>,
@@ -74,19 +75,23 @@ pub(super) struct Spot<'a> {
     which: usize,
 }
 
-impl<'a> SmoothNet<'a> {
-    /// The net of the surface over `columns`, which have no levels yet.
-    pub(super) fn new(surface: &'a Surface, columns: Columns) -> Result<Self, StencilError> {
-        let (plan, topology) = (surface.plan(), surface.cage().topology());
-        let mut net = Self { plan, topology, columns, units: Vec::new(), points: Vec::new() };
+impl SmoothNet {
+    /// The net of surfaces over `columns`, which have no levels yet, closed by these caps.
+    pub(super) fn new(
+        layout: &Arc<Layout>,
+        caps: Option<CapOptions>,
+        columns: Columns,
+    ) -> Result<Self, StencilError> {
+        let (layout, plan) = (layout.clone(), layout.plan());
+        let mut net = Self { layout, caps, columns, units: Vec::new(), points: Vec::new() };
         for (k, level) in plan.levels.iter().enumerate() {
-            let (coarse, sharpness) = (plan.topology(topology, k), &plan.sharpness[k]);
-            let count = level.topology().num_vertices();
-            let rows = net.columns.refined(count, |v| level.mask(coarse, sharpness, v))?;
+            let coarse = plan.topology(net.layout.topology(), k);
+            let mask = |v: VertexId| level.mask(coarse, &plan.sharpness[k], v);
+            let rows = net.columns.refined(level.topology().num_vertices(), mask)?;
             net.columns.push(rows);
         }
         for point in 0..plan.points.len() {
-            let units = net.units_of(surface, point);
+            let units = net.units_of(point)?;
             let (level, vertices) = (plan.points[point].level, net.vertices_around(point));
             net.points.push(PointNet { units, level, vertices });
         }
@@ -94,26 +99,37 @@ impl<'a> SmoothNet<'a> {
     }
 
     /// The number of the unit nets of a point, which are made if there are none yet.
-    fn units_of(&mut self, surface: &Surface, point: usize) -> usize {
-        let rules = surface.rings(point).shared_rules();
-        if let Some(found) = self.units.iter().position(|units| units.are_of(rules)) {
-            return found;
+    fn units_of(&mut self, point: usize) -> Result<usize, StencilError> {
+        let shared = self.layout.rules(point);
+        if let Some(found) = self.units.iter().position(|units| units.are_of(shared.rules())) {
+            return Ok(found);
         }
-        let options = surface.cap_options();
-        let cap = surface.cap_rules(point).cloned().zip(options.map(|options| options.rings));
-        self.units.push(UnitNets::new(Arc::clone(rules), cap));
-        self.units.len() - 1
+        let cap = |caps: CapOptions| Ok::<_, CapError>((shared.cap(caps.kind)?, caps.rings));
+        let cap = self.caps.map(cap).transpose()?;
+        self.units.push(UnitNets::new(shared.rules().clone(), cap));
+        Ok(self.units.len() - 1)
     }
 
     /// The vertices of the net around a point, at its level, the centre the last.
     fn vertices_around(&self, point: usize) -> Vec<VertexId> {
-        let topology = self.plan.topology(self.topology, self.plan.points[point].level);
-        if !self.plan.points[point].fan.is_smooth() {
-            return fan_vertices(topology, self.plan.placed_fan(point));
+        let plan = self.layout.plan();
+        let topology = plan.topology(self.layout.topology(), plan.points[point].level);
+        if !plan.points[point].fan.is_smooth() {
+            return fan_vertices(topology, plan.placed_fan(point));
         }
-        let first = self.plan.first_half_edges[point];
+        let first = plan.first_half_edges[point];
         let sectors = cnet_vertices(topology, first).into_iter().flatten();
         sectors.chain([topology.origin(first)]).collect()
+    }
+
+    pub(super) fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Where the patches lie.
+    pub(super) fn patch_places(&self, rings: usize) -> Result<Vec<PatchPlace>, StencilError> {
+        let caps = self.caps.map(|caps| CapPlan::new(&self.layout, caps)).transpose()?;
+        Ok(self.layout.places(rings, caps.as_ref()).collect())
     }
 
     pub(super) fn columns(&self) -> &Columns {
@@ -128,12 +144,12 @@ impl<'a> SmoothNet<'a> {
         mut at: [f64; 2],
         sums: &mut Sums<R>,
     ) -> Result<bool, StencilError> {
-        let (mut piece, mut zoom) = (self.plan.pieces[quad.0 as usize], 1.0);
+        let (mut piece, mut zoom) = (self.layout.plan().pieces[quad.0 as usize], 1.0);
         loop {
             match piece {
                 Piece::Omitted => return Ok(false),
                 Piece::Regular(net) => {
-                    let net = &self.plan.nets[net as usize];
+                    let net = &self.layout.plan().nets[net as usize];
                     self.place_in_regular(net, at, zoom, sums);
                     return Ok(true);
                 }
@@ -144,7 +160,7 @@ impl<'a> SmoothNet<'a> {
                 }
                 Piece::Split(first) => {
                     let k = quadrant(at);
-                    piece = self.plan.pieces[first as usize + k];
+                    piece = self.layout.plan().pieces[first as usize + k];
                     at = [2.0 * at[0] - CORNERS[k][0], 2.0 * at[1] - CORNERS[k][1]];
                     zoom *= 2.0;
                 }
@@ -250,7 +266,9 @@ impl<'a> SmoothNet<'a> {
     /// What the coefficients of a patch are made of; `None` if it is not one of this surface.
     pub(super) fn patch(&self, place: &PatchPlace) -> Result<Option<PatchRows<'_>>, StencilError> {
         match place.source {
-            Source::Net(net) => Ok(self.plan.nets.get(net as usize).map(PatchRows::Regular)),
+            Source::Net(net) => {
+                Ok(self.layout.plan().nets.get(net as usize).map(PatchRows::Regular))
+            }
             Source::Ring(at) => self.patch_around(&at, |units| Some(units.ring(at.ring))),
             Source::Cap(at) => self.patch_around(&at, |units| {
                 let count = units.cap_rings().filter(|&count| count == at.ring);

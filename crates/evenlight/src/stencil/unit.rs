@@ -3,7 +3,7 @@
 //!
 //! Everything around an extraordinary point is linear in its net, from the limit point to the
 //! coefficients of the cap, so its row of weights is read off the surfaces of unit nets, which the
-//! code of all other surfaces makes. Their coordinates are numbers, three at a time. If the rules
+//! code of all other surfaces makes. Their coordinates are numbers, [`WIDTH`] at a time. If the rules
 //! commute with turning, the nodes of one sector are enough:
 //!
 //! ```text
@@ -20,12 +20,17 @@ use super::StencilError;
 use crate::cap::{Cap, ValenceCap};
 use crate::net::{CNET_NODES, CNet};
 use crate::patch::Patch;
-use crate::point::{Point, Vector};
 use crate::rings::{CACHED_RINGS, Rings, ValenceRules};
 use crate::scheme::FanLimit;
 
 /// The most faces of a fan between sharp edges: all of its nodes need nets of their own.
 const MOST_FAN_FACES: usize = 64;
+
+/// So many unit nets are one net.
+const WIDTH: usize = 4;
+
+/// A number of each of them.
+type Numbers = [f64; WIDTH];
 
 /// The unit nets of some rules, and the cap that closes their rings.
 #[derive(Debug)]
@@ -42,8 +47,8 @@ pub(super) struct UnitNets {
 struct Nets {
     /// The weights of all nodes in the limit point.
     center: Vec<f64>,
-    /// Relative to the limit point: three unit nets at a time.
-    rings: Vec<Rings>,
+    /// Relative to the limit point.
+    rings: Vec<Rings<WIDTH>>,
 }
 
 /// The weights of all nodes in the BB coefficients of patches: all sectors of a ring or cap, or
@@ -149,7 +154,7 @@ impl UnitNets {
     }
 
     fn make_cap_table(&self, rules: &ValenceCap, count: usize) -> Table {
-        let of_nets = |nets: &Rings| -> Vec<Patch> {
+        let of_nets = |nets: &Rings<WIDTH>| -> Vec<Patch<WIDTH>> {
             // As the caps of nets in front of the first ring, with no scale to come.
             let rings = Rings::over_numbers(nets.net(count), Arc::clone(&self.rules));
             let cap = Cap::with_rules(&rings, 0, rules);
@@ -160,8 +165,8 @@ impl UnitNets {
         self.table(&self.nets().rings.iter().map(of_nets).collect::<Vec<_>>())
     }
 
-    /// The table of patches of all unit nets, three nets at a time, sector by sector.
-    fn table(&self, patches: &[Vec<Patch>]) -> Table {
+    /// The table of the patches of all unit nets, sector by sector.
+    fn table(&self, patches: &[Vec<Patch<WIDTH>>]) -> Table {
         let (n, num_nodes) = (self.rules.rules().valence, self.num_nodes());
         let patches_per_sector = patches[0].len() / n;
         let degree = patches[0][0].degree()[0];
@@ -172,7 +177,7 @@ impl UnitNets {
             weights.extend((0..num_nodes).map(|node| {
                 let (net, turn) = self.net_of(node);
                 let sector_patch = (turn * patches_per_sector + patch) % patches[0].len();
-                patches[net / 3][sector_patch].coefs()[coef][net % 3]
+                patches[net / WIDTH][sector_patch].coefs()[coef][net % WIDTH]
             }));
         }
         Table { num_nodes, patches_per_sector, degree, weights }
@@ -198,11 +203,11 @@ impl UnitNets {
             } else {
                 (0..self.num_nodes()).collect()
             };
-            let nets: Vec<(Point, Rings)> =
-                unit_nodes.chunks(3).map(|nodes| self.surface_of(nodes)).collect();
+            let nets: Vec<(Numbers, Rings<WIDTH>)> =
+                unit_nodes.chunks(WIDTH).map(|nodes| self.surface_of(nodes)).collect();
             let center = (0..self.num_nodes()).map(|node| {
                 let (net, _) = self.net_of(node);
-                nets[net / 3].0[net % 3]
+                nets[net / WIDTH].0[net % WIDTH]
             });
             let center = center.collect();
             Nets { center, rings: nets.into_iter().map(|(_, rings)| rings).collect() }
@@ -210,8 +215,8 @@ impl UnitNets {
     }
 
     /// The limit points and the rings of the unit nets of some nodes, one for each coordinate.
-    fn surface_of(&self, unit_nodes: &[usize]) -> (Point, Rings) {
-        let mut nodes = vec![[0.0; 3]; self.num_nodes()];
+    fn surface_of(&self, unit_nodes: &[usize]) -> (Numbers, Rings<WIDTH>) {
+        let mut nodes = vec![[0.0; WIDTH]; self.num_nodes()];
         unit_nodes.iter().enumerate().for_each(|(k, &node)| nodes[node][k] = 1.0);
         let (center, first) = match self.rules.fan_limit() {
             Some(limit) => (limit.limit_point(&nodes), limit.first_net(&nodes)),
@@ -227,7 +232,7 @@ fn num_fan_nodes(limit: &FanLimit) -> usize {
 }
 
 /// The limit point of a c-net, its centre the last node, and the net of the scheme relative to it.
-fn first_net(nodes: &[Point], rules: &ValenceRules) -> (Point, Vec<Vector>) {
+fn first_net(nodes: &[Numbers], rules: &ValenceRules) -> (Numbers, Vec<Numbers>) {
     let (sectors, _) = nodes.as_chunks::<CNET_NODES>();
     let cnet = CNet { center: nodes[nodes.len() - 1], sectors: sectors.to_vec() };
     let (kind, rules) = (rules.kind(), rules.rules());
