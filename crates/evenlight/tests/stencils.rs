@@ -223,6 +223,41 @@ fn places_are_those_of_the_surface_at_any_depth() {
     }
 }
 
+/// Beyond 64 faces between two sharp edges rows are made another way.
+#[test]
+fn places_at_fans_of_many_faces_are_those_of_the_surface() {
+    for lines in [&[0, 70][..], &[0, 1, 68], &[2]] {
+        let cage = Arc::new(Cage::new(fans::starred(140, lines, 5)).unwrap());
+        let mut surface = common::surface(&cage, SchemeKind::Qas4);
+        let sectors = surface.extraordinary_points().iter().flat_map(|p| &p.sectors).step_by(23);
+        let at = |s: &evenlight::surface::Sector, a: f64, b: f64| {
+            let [u, v] = [0, 1].map(|k| s.center[k] + a * s.along[0][k] + b * s.along[1][k]);
+            (s.quad, u, v)
+        };
+        let near = [(0.9, 0.3), (0.1, 0.2), (0.01, 0.03), (0.0, 0.0)];
+        let places: Vec<Place> = sectors.flat_map(|s| near.map(|(a, b)| at(s, a, b))).collect();
+        let builder = StencilBuilder::of_surface(&surface).unwrap();
+        let stencils = builder.places(&places, 2).unwrap();
+        let scales: Vec<f64> = scales(&surface, &places, 2).iter().map(|x| x.max(1.0)).collect();
+        let name = format!("{lines:?}");
+        check(&name, &stencils, &scales, cage.positions(), &jets(&surface, &places));
+        check_sums(&name, &stencils, 2, &scales);
+        let patches: Vec<_> =
+            surface.patch_places(3).filter(|place| place.point.is_some()).step_by(97).collect();
+        let rows = builder.patches(&patches).unwrap();
+        let expected: Vec<[f64; 3]> =
+            patches.iter().flat_map(|p| surface.patch(p).unwrap().coefs().to_vec()).collect();
+        check(&name, rows.stencils(), &vec![1.0; expected.len()], cage.positions(), &expected);
+        // Their caps have too many unit nets.
+        surface.set_caps(Some(CapOptions::default())).unwrap();
+        let builder = StencilBuilder::of_surface(&surface).unwrap();
+        let errors = places.iter().filter_map(|place| builder.places(&[*place], 0).err());
+        assert!(
+            errors.into_iter().all(|error| matches!(error, StencilError::Fan { most: 64, .. }))
+        );
+    }
+}
+
 /// At the point itself the position is the limit point; derivatives are NaN, unless there is a cap.
 #[test]
 fn at_the_point_itself_derivatives_do_not_exist() {

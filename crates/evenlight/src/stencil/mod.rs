@@ -45,6 +45,7 @@
 //! ([`Surface::set_quadratic`]) is not linear in its cage around that point. Caps are linear too, and are
 //! in.
 
+mod backwards;
 mod basis;
 mod columns;
 mod error;

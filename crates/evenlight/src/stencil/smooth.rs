@@ -13,12 +13,11 @@ use std::sync::Arc;
 use super::StencilError;
 use super::basis::{factors, product, turned, turned_coefficient};
 use super::columns::{Columns, Sums};
-use super::unit::{Table, UnitNets};
+use super::unit::{PatchWeights, UnitNets};
 use crate::cap::{CapError, CapOptions};
 use crate::mesh::isolation::{CORNERS, Piece};
 use crate::mesh::{RegularNet, VertexId, cnet_vertices, fan_vertices};
-use crate::patch::MAX_DEGREE;
-use crate::patch::basis::{BasisJet, CUBIC_B_SPLINE_TO_BB, bernstein, cubic_b_spline};
+use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, bernstein, cubic_b_spline};
 use crate::rings::{power, ring_of, scaled_up};
 use crate::surface::{CapPlan, Layout, PatchPlace, QuadId, RingPatch, Source, quadrant, to_sector};
 
@@ -61,7 +60,7 @@ impl PatchRows<'_> {
     pub(super) fn degree(&self) -> usize {
         match self {
             Self::Regular(_) => 3,
-            Self::Around { spot, .. } => spot.table.degree,
+            Self::Around { spot, .. } => spot.weights.degree(),
         }
     }
 }
@@ -70,9 +69,14 @@ impl PatchRows<'_> {
 pub(super) struct Spot<'a> {
     point: &'a PointNet,
     units: &'a UnitNets,
-    table: Arc<Table>,
-    sector: usize,
-    which: usize,
+    weights: PatchWeights,
+}
+
+impl Spot<'_> {
+    /// The level and the vertex that weight k of a row is of.
+    fn vertex(&self, k: usize) -> (usize, VertexId) {
+        (self.point.level, self.point.vertices[self.weights.node(k)])
+    }
 }
 
 impl SmoothNet {
@@ -203,27 +207,26 @@ impl SmoothNet {
     ) -> Result<(), StencilError> {
         let point = &self.points[point];
         let units = &self.units[point.units];
-        units.check()?;
         let sigma = units.rules().rules().sigma();
         let at = to_sector(corner, at);
         let in_hole = |count: usize| at.map(|x| scaled_up(x, count, sigma));
         let is_inside = |count: &usize| in_hole(*count).iter().all(|&x| x <= 1.0);
-        let in_cap = units.cap_rings().filter(is_inside).zip(units.cap());
-        let by_zoom = |order: [f64; 3]| [order[0], order[1] * zoom, order[2] * (zoom * zoom)];
-        if let Some((count, table)) = in_cap {
-            let (which, at, size) = in_cap_patch(in_hole(count), table.split());
-            let factors: [f64; R] = factors(by_zoom(scales(units, count)), [size; 2]);
-            let spot = Spot { point, units, table, sector, which };
-            self.enter_spot(&spot, &bases(spot.table.degree, at), factors, corner, sums);
+        let (weights, at, ring, sizes) = if let Some(count) = units.cap_rings().filter(is_inside) {
+            let Some(cap) = units.cap()? else { return Ok(()) };
+            let (which, at, size) = in_cap_patch(in_hole(count), cap.split());
+            (units.of_sector(cap, sector, which), at, count, [size; 2])
         } else if at == [0.0; 2] {
             self.enter_center(point, units, sums);
+            return Ok(());
         } else {
             let ring = ring_of(at[0].max(at[1]), sigma);
             let place = units.rules().rules().locate(in_hole(ring));
-            let factors: [f64; R] = factors(by_zoom(scales(units, ring)), place.size);
-            let (table, which) = (units.ring(ring), place.which);
-            let spot = Spot { point, units, table, sector, which };
-            self.enter_spot(&spot, &bases(spot.table.degree, place.at), factors, corner, sums);
+            (units.in_ring(ring, sector, place.which), place.at, ring, place.size)
+        };
+        if let Some(weights) = weights {
+            let [value, first, second] = scales(units, ring);
+            let factors = factors([value, first * zoom, second * (zoom * zoom)], sizes);
+            self.enter_spot(&Spot { point, units, weights }, at, factors, corner, sums);
         }
         Ok(())
     }
@@ -232,16 +235,16 @@ impl SmoothNet {
     fn enter_spot<const R: usize>(
         &self,
         spot: &Spot<'_>,
-        [ba, bb]: &[BasisJet<{ MAX_DEGREE + 1 }>; 2],
+        at: [f64; 2],
         factors: [f64; R],
         corner: u8,
         sums: &mut Sums<R>,
     ) {
-        let (sector, number) = spot.units.seen_from(spot.sector);
+        let degree = spot.weights.degree();
+        let (order, [ba, bb]) = (degree + 1, at.map(|x| bernstein(degree, x)));
         let mut weights = vec![[0.0; R]; spot.units.center().len()];
-        let order = spot.table.degree + 1;
-        for (k, row) in spot.table.patch(sector, spot.which).enumerate() {
-            let w = turned(corner, product(&factors, [ba, bb], [k / order, k % order]));
+        for (k, row) in spot.weights.rows().enumerate() {
+            let w = turned(corner, product(&factors, [&ba, &bb], [k / order, k % order]));
             for (sum, x) in weights.iter_mut().zip(row) {
                 (0..R).for_each(|r| sum[r] += w[r] * x);
             }
@@ -249,7 +252,7 @@ impl SmoothNet {
         for (k, (mut w, center)) in weights.into_iter().zip(spot.units.center()).enumerate() {
             w[0] += center;
             if w != [0.0; R] {
-                self.columns.enter((spot.point.level, spot.point.vertices[number(k)]), w, sums);
+                self.columns.enter(spot.vertex(k), w, sums);
             }
         }
     }
@@ -269,10 +272,13 @@ impl SmoothNet {
             Source::Net(net) => {
                 Ok(self.layout.plan().nets.get(net as usize).map(PatchRows::Regular))
             }
-            Source::Ring(at) => self.patch_around(&at, |units| Some(units.ring(at.ring))),
+            Source::Ring(at) => {
+                self.patch_around(&at, |units| Ok(units.in_ring(at.ring, at.sector, at.which)))
+            }
             Source::Cap(at) => self.patch_around(&at, |units| {
-                let count = units.cap_rings().filter(|&count| count == at.ring);
-                count.and_then(|_| units.cap())
+                let is_there = units.cap_rings() == Some(at.ring);
+                let cap = if is_there { units.cap()? } else { None };
+                Ok(cap.and_then(|cap| units.of_sector(cap, at.sector, at.which)))
             }),
         }
     }
@@ -280,19 +286,14 @@ impl SmoothNet {
     fn patch_around(
         &self,
         at: &RingPatch,
-        table: impl Fn(&UnitNets) -> Option<Arc<Table>>,
+        weights: impl Fn(&UnitNets) -> Result<Option<PatchWeights>, StencilError>,
     ) -> Result<Option<PatchRows<'_>>, StencilError> {
-        let RingPatch { point, sector, which, corner, ring, .. } = *at;
-        let Some(point) = self.points.get(point) else { return Ok(None) };
+        let Some(point) = self.points.get(at.point) else { return Ok(None) };
         let units = &self.units[point.units];
-        units.check()?;
-        let valence = units.rules().rules().valence;
-        let table =
-            table(units).filter(|table| sector < valence && which < table.patches_per_sector);
-        let scale = power(units.rules().subdominant().lambda, ring);
-        Ok(table.map(|table| {
-            let spot = Spot { point, units, table, sector, which };
-            PatchRows::Around { spot, corner, scale }
+        let scale = power(units.rules().subdominant().lambda, at.ring);
+        Ok(weights(units)?.map(|weights| {
+            let spot = Spot { point, units, weights };
+            PatchRows::Around { spot, corner: at.corner, scale }
         }))
     }
 
@@ -310,13 +311,10 @@ impl SmoothNet {
                 self.enter_regular(net, weights, sums);
             }
             PatchRows::Around { spot, corner, scale } => {
-                let (sector, number) = spot.units.seen_from(spot.sector);
-                let k = turned_coefficient(*corner, spot.table.degree, [i, j]);
-                let row = spot.table.patch(sector, spot.which).nth(k).unwrap_or_default();
+                let k = turned_coefficient(*corner, spot.weights.degree(), [i, j]);
+                let row = spot.weights.rows().nth(k).unwrap_or_default();
                 for (k, (w, center)) in row.iter().zip(spot.units.center()).enumerate() {
-                    let vertex = spot.point.vertices[number(k)];
-                    let w = center + scale * w;
-                    self.columns.enter((spot.point.level, vertex), [w], sums);
+                    self.columns.enter(spot.vertex(k), [center + scale * w], sums);
                 }
             }
         }
@@ -329,10 +327,6 @@ fn scales(units: &UnitNets, ring: usize) -> [f64; 3] {
     let lambda = units.rules().subdominant().lambda;
     let step = units.rules().rules().sigma();
     [lambda, lambda / step, lambda / (step * step)].map(|factor| power(factor, ring))
-}
-
-fn bases(degree: usize, at: [f64; 2]) -> [BasisJet<{ MAX_DEGREE + 1 }>; 2] {
-    at.map(|x| bernstein(degree, x))
 }
 
 /// The patch of a cap that has a place of the hole, as [`Cap::eval`](crate::cap::Cap::eval) chooses it,

@@ -13,17 +13,20 @@
 //!
 //! Numbers are scaled as in [`rings`](crate::rings), by lambda^l in ring l; they lie in no tangent
 //! plane, so heights are scaled like everything else.
+//!
+//! Fans of many faces have too many nodes for that. Their rules are sparse, and a row goes back through
+//! the refinements instead, from the patch that is asked for to the net (module
+//! [`backwards`](super::backwards)).
 
 use std::sync::{Arc, OnceLock};
 
-use super::StencilError;
+use super::{StencilError, backwards};
 use crate::cap::{Cap, ValenceCap};
 use crate::net::{CNET_NODES, CNet};
 use crate::patch::Patch;
 use crate::rings::{CACHED_RINGS, Rings, ValenceRules};
-use crate::scheme::FanLimit;
 
-/// The most faces of a fan between sharp edges: all of its nodes need nets of their own.
+/// The most faces of a fan between sharp edges for unit nets, as all of its nodes need some.
 const MOST_FAN_FACES: usize = 64;
 
 /// So many unit nets are one net.
@@ -56,7 +59,7 @@ struct Nets {
 #[derive(Debug)]
 pub(super) struct Table {
     num_nodes: usize,
-    pub(super) patches_per_sector: usize,
+    patches_per_sector: usize,
     /// The degree of the patches in both parameters.
     pub(super) degree: usize,
     /// Patch by patch, coefficient by coefficient.
@@ -68,12 +71,35 @@ impl Table {
     pub(super) fn split(&self) -> usize {
         self.patches_per_sector.isqrt()
     }
+}
 
-    /// The weights of all nodes in a patch, coefficient by coefficient.
-    pub(super) fn patch(&self, sector: usize, which: usize) -> std::slice::Chunks<'_, f64> {
-        let size = self.num_nodes * (self.degree + 1) * (self.degree + 1);
-        let first = (sector * self.patches_per_sector + which) * size;
-        self.weights[first..first + size].chunks(self.num_nodes)
+/// The weights of all nodes in the coefficients of one patch.
+#[derive(Debug)]
+pub(super) struct PatchWeights {
+    table: Arc<Table>,
+    /// The number of the patch in the table.
+    patch: usize,
+    /// What is added to the number of a node to have it seen from the sector of the patch.
+    turn: usize,
+}
+
+impl PatchWeights {
+    /// The degree of the patch in both parameters.
+    pub(super) fn degree(&self) -> usize {
+        self.table.degree
+    }
+
+    /// The weights coefficient by coefficient, the index along b fastest.
+    pub(super) fn rows(&self) -> std::slice::Chunks<'_, f64> {
+        let Table { num_nodes, degree, ref weights, .. } = *self.table;
+        let size = num_nodes * (degree + 1) * (degree + 1);
+        weights[self.patch * size..][..size].chunks(num_nodes)
+    }
+
+    /// The node that a weight is of, by its number in a row.
+    pub(super) fn node(&self, k: usize) -> usize {
+        let around = self.table.num_nodes - 1;
+        if k == around { k } else { (k + self.turn) % around }
     }
 }
 
@@ -87,15 +113,6 @@ impl UnitNets {
     /// Whether they are those of a point.
     pub(super) fn are_of(&self, rules: &Arc<ValenceRules>) -> bool {
         Arc::ptr_eq(&self.rules, rules)
-    }
-
-    /// Fails if there are too many.
-    pub(super) fn check(&self) -> Result<(), StencilError> {
-        let faces = self.rules.rules().valence;
-        if self.commutes() || faces <= MOST_FAN_FACES {
-            return Ok(());
-        }
-        Err(StencilError::Fan { faces, most: MOST_FAN_FACES })
     }
 
     pub(super) fn rules(&self) -> &ValenceRules {
@@ -115,19 +132,9 @@ impl UnitNets {
     /// The number of nodes of a c-net or of the net of a fan.
     fn num_nodes(&self) -> usize {
         match self.rules.fan_limit() {
-            Some(limit) => num_fan_nodes(limit),
+            Some(limit) => limit.num_nodes(),
             None => CNET_NODES * self.rules.rules().valence + 1,
         }
-    }
-
-    /// The sector whose patches stand for those of `sector`, and what number node `k` of that one
-    /// has seen from there.
-    pub(super) fn seen_from(&self, sector: usize) -> (usize, impl Fn(usize) -> usize + use<>) {
-        let around = self.num_nodes() - 1;
-        let commutes = self.commutes();
-        let by = if commutes { CNET_NODES * sector } else { 0 };
-        let number = move |k: usize| if k == around { k } else { (k + by) % around };
-        (if commutes { 0 } else { sector }, number)
     }
 
     /// The weights of all nodes in the limit point.
@@ -135,17 +142,58 @@ impl UnitNets {
         &self.nets().center
     }
 
-    /// The weights in the patches of a ring, as its scale has them.
-    pub(super) fn ring(&self, ring: usize) -> Arc<Table> {
+    /// The weights in a patch of a ring, as its scale has them; `None` if there is no such patch.
+    pub(super) fn in_ring(&self, ring: usize, sector: usize, which: usize) -> Option<PatchWeights> {
+        let rules = self.rules.rules();
+        if sector >= rules.valence || which >= rules.patches_per_sector() {
+            return None;
+        }
+        if self.is_large() {
+            let weights = backwards::patch(&self.rules, ring, sector, which);
+            let num_nodes = self.num_nodes();
+            let table = Table { num_nodes, patches_per_sector: 1, degree: rules.degree, weights };
+            return Some(PatchWeights { table: Arc::new(table), patch: 0, turn: 0 });
+        }
         let make = || Arc::new(self.ring_table(ring));
-        self.rings.get(ring).map_or_else(make, |kept| kept.get_or_init(make).clone())
+        let table = self.rings.get(ring).map_or_else(make, |kept| kept.get_or_init(make).clone());
+        self.of_sector(table, sector, which)
     }
 
-    /// The weights in the patches of the cap, as the ring behind the last has them.
-    pub(super) fn cap(&self) -> Option<Arc<Table>> {
-        let (rules, count) = self.cap.as_ref()?;
+    /// The weights in the cap, as the ring behind the last has them, if there is one.
+    ///
+    /// # Errors
+    ///
+    /// [`StencilError::Fan`] if there are too many faces.
+    pub(super) fn cap(&self) -> Result<Option<Arc<Table>>, StencilError> {
+        let Some((rules, count)) = &self.cap else { return Ok(None) };
+        if self.is_large() {
+            let faces = self.rules.rules().valence;
+            return Err(StencilError::Fan { faces, most: MOST_FAN_FACES });
+        }
         let make = || Arc::new(self.make_cap_table(rules, *count));
-        Some(self.cap_table.get_or_init(make).clone())
+        Ok(Some(self.cap_table.get_or_init(make).clone()))
+    }
+
+    /// The weights in a patch of a table of all sectors; `None` if there is no such patch.
+    pub(super) fn of_sector(
+        &self,
+        table: Arc<Table>,
+        sector: usize,
+        which: usize,
+    ) -> Option<PatchWeights> {
+        let is_there = sector < self.rules.rules().valence && which < table.patches_per_sector;
+        is_there.then(|| match self.commutes() {
+            true => PatchWeights { table, patch: which, turn: CNET_NODES * sector },
+            false => {
+                let patch = sector * table.patches_per_sector + which;
+                PatchWeights { table, patch, turn: 0 }
+            }
+        })
+    }
+
+    /// Whether there are too many nodes for unit nets.
+    fn is_large(&self) -> bool {
+        !self.commutes() && self.rules.rules().valence > MOST_FAN_FACES
     }
 
     fn ring_table(&self, ring: usize) -> Table {
@@ -197,6 +245,9 @@ impl UnitNets {
 
     fn nets(&self) -> &Nets {
         self.nets.get_or_init(|| {
+            if let Some(limit) = self.rules.fan_limit().filter(|_| self.is_large()) {
+                return Nets { center: backwards::limit(limit), rings: Vec::new() };
+            }
             let n = self.rules.rules().valence;
             let unit_nodes: Vec<usize> = if self.commutes() {
                 (0..CNET_NODES).chain([CNET_NODES * n]).collect()
@@ -224,11 +275,6 @@ impl UnitNets {
         };
         (center, Rings::over_numbers(first, Arc::clone(&self.rules)))
     }
-}
-
-fn num_fan_nodes(limit: &FanLimit) -> usize {
-    let shape = limit.shape();
-    2 * shape.lines() + 4 * shape.faces + 1
 }
 
 /// The limit point of a c-net, its centre the last node, and the net of the scheme relative to it.
