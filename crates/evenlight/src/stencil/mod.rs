@@ -64,7 +64,7 @@ pub use refined::RefinedCage;
 
 use crate::cap::CapOptions;
 use crate::mesh::channel::ChannelNet;
-use crate::mesh::{FaceVaryingRule, Interpolation, Primvar, Topology};
+use crate::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use crate::surface::{ArrayError, Layout, PatchPlace, QuadId, Surface, own_layout, row_width};
 use columns::{Columns, Sums, in_parts};
 use linear::LinearNet;
@@ -287,7 +287,7 @@ impl StencilBuilder {
 fn linear_net(layout: &Layout, primvar: &Primvar) -> Option<LinearNet> {
     let boundary = layout.options().boundary.unwrap_or(layout.tags().boundary);
     let net = ChannelNet::new(layout.topology(), layout.tags(), primvar, boundary);
-    let topology = Topology::build(net.faces, net.values.len()).ok()?;
+    let topology = layout.topology().with_vertices(net.faces, net.values.len()).ok()?;
     Some(LinearNet { topology: Arc::new(topology), columns: value_columns(primvar, net.values) })
 }
 

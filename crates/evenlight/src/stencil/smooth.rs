@@ -16,7 +16,7 @@ use super::columns::{Columns, Sums};
 use super::unit::{PatchWeights, UnitNets};
 use crate::cap::{CapError, CapOptions};
 use crate::mesh::isolation::{CORNERS, Piece};
-use crate::mesh::{RegularNet, VertexId, cnet_vertices, fan_vertices};
+use crate::mesh::{RegularNet, VertexId};
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, bernstein, cubic_b_spline};
 use crate::rings::{power, ring_of, scaled_up};
 use crate::surface::{CapPlan, Layout, PatchPlace, QuadId, RingPatch, Source, quadrant, to_sector};
@@ -28,16 +28,26 @@ pub(super) struct SmoothNet {
     caps: Option<CapOptions>,
     columns: Columns,
     units: Vec<UnitNets>,
-    points: Vec<PointNet>,
+    /// The number of the unit nets of every extraordinary point.
+    of_point: Vec<usize>,
 }
 
-/// The net of an extraordinary point.
-#[derive(Debug)]
-struct PointNet {
-    /// The number of its unit nets.
-    units: usize,
+/// The net of an extraordinary point, and its unit nets.
+struct PointNet<'a> {
+    units: &'a UnitNets,
     level: usize,
-    vertices: Vec<VertexId>,
+    vertices: &'a [VertexId],
+    /// Of c-nets the centre is the first vertex, of fans the last, but always the last node of units.
+    is_center_first: bool,
+}
+
+impl PointNet<'_> {
+    /// The level and the vertex of a node.
+    fn vertex(&self, node: usize) -> (usize, VertexId) {
+        let count = self.vertices.len();
+        let at = if self.is_center_first { (node + 1) % count } else { node };
+        (self.level, self.vertices[at])
+    }
 }
 
 /// What the coefficients of a patch are made of.
@@ -67,15 +77,14 @@ impl PatchRows<'_> {
 
 /// A patch around an extraordinary point.
 pub(super) struct Spot<'a> {
-    point: &'a PointNet,
-    units: &'a UnitNets,
+    point: PointNet<'a>,
     weights: PatchWeights,
 }
 
 impl Spot<'_> {
     /// The level and the vertex that weight k of a row is of.
     fn vertex(&self, k: usize) -> (usize, VertexId) {
-        (self.point.level, self.point.vertices[self.weights.node(k)])
+        self.point.vertex(self.weights.node(k))
     }
 }
 
@@ -87,7 +96,7 @@ impl SmoothNet {
         columns: Columns,
     ) -> Result<Self, StencilError> {
         let (layout, plan) = (layout.clone(), layout.plan());
-        let mut net = Self { layout, caps, columns, units: Vec::new(), points: Vec::new() };
+        let mut net = Self { layout, caps, columns, units: Vec::new(), of_point: Vec::new() };
         for (k, level) in plan.levels.iter().enumerate() {
             let coarse = plan.topology(net.layout.topology(), k);
             let mask = |v: VertexId| level.mask(coarse, &plan.sharpness[k], v);
@@ -96,8 +105,7 @@ impl SmoothNet {
         }
         for point in 0..plan.points.len() {
             let units = net.units_of(point)?;
-            let (level, vertices) = (plan.points[point].level, net.vertices_around(point));
-            net.points.push(PointNet { units, level, vertices });
+            net.of_point.push(units);
         }
         Ok(net)
     }
@@ -114,16 +122,15 @@ impl SmoothNet {
         Ok(self.units.len() - 1)
     }
 
-    /// The vertices of the net around a point, at its level, the centre the last.
-    fn vertices_around(&self, point: usize) -> Vec<VertexId> {
-        let plan = self.layout.plan();
-        let topology = plan.topology(self.layout.topology(), plan.points[point].level);
-        if !plan.points[point].fan.is_smooth() {
-            return fan_vertices(topology, plan.placed_fan(point));
+    /// The net of a point that exists.
+    fn point(&self, point: usize) -> PointNet<'_> {
+        let found = &self.layout.plan().points[point];
+        PointNet {
+            units: &self.units[self.of_point[point]],
+            level: found.level,
+            vertices: self.layout.net_vertices(point),
+            is_center_first: found.fan.is_smooth(),
         }
-        let first = plan.first_half_edges[point];
-        let sectors = cnet_vertices(topology, first).into_iter().flatten();
-        sectors.chain([topology.origin(first)]).collect()
     }
 
     pub(super) fn layout(&self) -> &Layout {
@@ -205,8 +212,8 @@ impl SmoothNet {
         zoom: f64,
         sums: &mut Sums<R>,
     ) -> Result<(), StencilError> {
-        let point = &self.points[point];
-        let units = &self.units[point.units];
+        let point = self.point(point);
+        let units = point.units;
         let sigma = units.rules().rules().sigma();
         let at = to_sector(corner, at);
         let in_hole = |count: usize| at.map(|x| scaled_up(x, count, sigma));
@@ -216,7 +223,7 @@ impl SmoothNet {
             let (which, at, size) = in_cap_patch(in_hole(count), cap.split());
             (units.of_sector(cap, sector, which), at, count, [size; 2])
         } else if at == [0.0; 2] {
-            self.enter_center(point, units, sums);
+            self.enter_center(&point, sums);
             return Ok(());
         } else {
             let ring = ring_of(at[0].max(at[1]), sigma);
@@ -226,7 +233,7 @@ impl SmoothNet {
         if let Some(weights) = weights {
             let [value, first, second] = scales(units, ring);
             let factors = factors([value, first * zoom, second * (zoom * zoom)], sizes);
-            self.enter_spot(&Spot { point, units, weights }, at, factors, corner, sums);
+            self.enter_spot(&Spot { point, weights }, at, factors, corner, sums);
         }
         Ok(())
     }
@@ -242,14 +249,14 @@ impl SmoothNet {
     ) {
         let degree = spot.weights.degree();
         let (order, [ba, bb]) = (degree + 1, at.map(|x| bernstein(degree, x)));
-        let mut weights = vec![[0.0; R]; spot.units.center().len()];
+        let mut weights = vec![[0.0; R]; spot.point.units.center().len()];
         for (k, row) in spot.weights.rows().enumerate() {
             let w = turned(corner, product(&factors, [&ba, &bb], [k / order, k % order]));
             for (sum, x) in weights.iter_mut().zip(row) {
                 (0..R).for_each(|r| sum[r] += w[r] * x);
             }
         }
-        for (k, (mut w, center)) in weights.into_iter().zip(spot.units.center()).enumerate() {
+        for (k, (mut w, center)) in weights.into_iter().zip(spot.point.units.center()).enumerate() {
             w[0] += center;
             if w != [0.0; R] {
                 self.columns.enter(spot.vertex(k), w, sums);
@@ -258,11 +265,11 @@ impl SmoothNet {
     }
 
     /// The extraordinary point itself, where derivatives do not exist.
-    fn enter_center<const R: usize>(&self, point: &PointNet, units: &UnitNets, sums: &mut Sums<R>) {
-        for (&w, &v) in units.center().iter().zip(&point.vertices).filter(|&(&w, _)| w != 0.0) {
+    fn enter_center<const R: usize>(&self, point: &PointNet<'_>, sums: &mut Sums<R>) {
+        for (node, &w) in point.units.center().iter().enumerate().filter(|&(_, &w)| w != 0.0) {
             let mut rows = [f64::NAN; R];
             rows[0] = w;
-            self.columns.enter((point.level, v), rows, sums);
+            self.columns.enter(point.vertex(node), rows, sums);
         }
     }
 
@@ -288,11 +295,13 @@ impl SmoothNet {
         at: &RingPatch,
         weights: impl Fn(&UnitNets) -> Result<Option<PatchWeights>, StencilError>,
     ) -> Result<Option<PatchRows<'_>>, StencilError> {
-        let Some(point) = self.points.get(at.point) else { return Ok(None) };
-        let units = &self.units[point.units];
-        let scale = power(units.rules().subdominant().lambda, at.ring);
-        Ok(weights(units)?.map(|weights| {
-            let spot = Spot { point, units, weights };
+        if at.point >= self.of_point.len() {
+            return Ok(None);
+        }
+        let point = self.point(at.point);
+        let scale = power(point.units.rules().subdominant().lambda, at.ring);
+        Ok(weights(point.units)?.map(|weights| {
+            let spot = Spot { point, weights };
             PatchRows::Around { spot, corner: at.corner, scale }
         }))
     }
@@ -313,7 +322,7 @@ impl SmoothNet {
             PatchRows::Around { spot, corner, scale } => {
                 let k = turned_coefficient(*corner, spot.weights.degree(), [i, j]);
                 let row = spot.weights.rows().nth(k).unwrap_or_default();
-                for (k, (w, center)) in row.iter().zip(spot.units.center()).enumerate() {
+                for (k, (w, center)) in row.iter().zip(spot.point.units.center()).enumerate() {
                     self.columns.enter(spot.vertex(k), [center + scale * w], sums);
                 }
             }

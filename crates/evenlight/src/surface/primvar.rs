@@ -18,7 +18,7 @@ use std::sync::{Arc, OnceLock};
 use super::{CreaseRings, Layout, QuadId, Surface, SurfaceOptions};
 use crate::cap::CapOptions;
 use crate::mesh::channel::ChannelNet;
-use crate::mesh::{FaceVaryingRule, Interpolation, Primvar, Topology};
+use crate::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use crate::patch::Jet;
 
 /// A primvar that can be evaluated.
@@ -44,7 +44,7 @@ impl Channel {
             Interpolation::FaceVarying if layout.tags().face_varying == FaceVaryingRule::All => {
                 return Self::Linear;
             }
-            Interpolation::FaceVarying => own_layout(layout, primvar),
+            Interpolation::FaceVarying => Self::own_layout(layout, primvar),
             Interpolation::Vertex => {
                 let vertices = 0..layout.num_vertices() as u32;
                 Some((layout.clone(), vertices.collect()))
@@ -60,20 +60,26 @@ impl Channel {
         debug_assert!(smooth.is_some(), "a primvar has no points that the positions have not");
         smooth.unwrap_or(Self::None)
     }
+
+    /// The layout of a face-varying primvar, and the number of the value at each of its vertices.
+    fn own_layout(layout: &Layout, primvar: &Primvar) -> Option<(Arc<Layout>, Vec<u32>)> {
+        let options = layout.options();
+        let boundary = options.boundary.unwrap_or(layout.tags().boundary);
+        let net = ChannelNet::new(layout.topology(), layout.tags(), primvar, boundary);
+        // The primvar has a boundary rule of its own, and at its seams what others make of it.
+        let creases = CreaseRings::CatmullClark;
+        let options = SurfaceOptions { boundary: None, creases, ..options };
+        let topology = layout.topology().with_vertices(net.faces, net.values.len()).ok()?;
+        let topology = Arc::new(topology);
+        let tags = Arc::new(net.tags);
+        let own = Layout::of_net(topology, tags, net.beyond, options, layout.cache()).ok()?;
+        Some((Arc::new(own), net.values))
+    }
 }
 
-/// The layout of a face-varying primvar, and the number of the value at each of its vertices.
+/// The layout of a smooth face-varying primvar, and the number of the value at each of its vertices.
 pub(crate) fn own_layout(layout: &Layout, primvar: &Primvar) -> Option<(Arc<Layout>, Vec<u32>)> {
-    let options = layout.options();
-    let boundary = options.boundary.unwrap_or(layout.tags().boundary);
-    let net = ChannelNet::new(layout.topology(), layout.tags(), primvar, boundary);
-    // The primvar has a boundary rule of its own, and at its seams what others make of it.
-    let creases = CreaseRings::CatmullClark;
-    let options = SurfaceOptions { boundary: None, creases, ..options };
-    let topology = Arc::new(Topology::build(net.faces, net.values.len()).ok()?);
-    let tags = Arc::new(net.tags);
-    let own = Layout::of_net(topology, tags, net.beyond, options, layout.cache()).ok()?;
-    Some((Arc::new(own), net.values))
+    Channel::own_layout(layout, primvar)
 }
 
 /// The surface of a primvar over a layout at whose vertices it has the values of these numbers.
@@ -83,8 +89,9 @@ fn surface<const N: usize>(
     primvar: &Primvar,
     values: &[u32],
 ) -> Option<Surface<N>> {
-    let value = |&number: &u32| padded(primvar, number as usize);
-    let mut surface = Surface::over(layout, values.iter().map(value).collect()).ok()?;
+    let (all, _) = primvar.values.as_chunks::<N>();
+    let values = values.iter().map(|&number| all[number as usize]).collect();
+    let mut surface = Surface::over(layout, values).ok()?;
     surface.set_caps(caps).ok()?;
     Some(surface)
 }
@@ -96,8 +103,15 @@ fn padded<const N: usize>(primvar: &Primvar, value: usize) -> [f64; N] {
 }
 
 /// The first N numbers of a jet of M.
+#[inline]
 fn resized<const M: usize, const N: usize>(jet: &Jet<M>) -> Jet<N> {
-    let row = |x: &[f64; M]| std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0));
+    let row = |x: &[f64; M]| {
+        let mut row = [0.0; N];
+        for k in 0..N.min(M) {
+            row[k] = x[k];
+        }
+        row
+    };
     let Jet { p, du, dv, duu, duv, dvv } = jet;
     Jet { p: row(p), du: row(du), dv: row(dv), duu: row(duu), duv: row(duv), dvv: row(dvv) }
 }
