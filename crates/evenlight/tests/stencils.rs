@@ -10,13 +10,14 @@ use std::sync::Arc;
 use common::{Random, fans, options};
 use evenlight::cap::{CapKind, CapOptions};
 use evenlight::mesh::{FaceVaryingRule, Interpolation, Primvar};
+use evenlight::patch::Jet;
 use evenlight::stencil::{StencilBuilder, StencilError, Stencils};
 use evenlight::surface::{ArrayError, CreaseRings, Layout, Role, row_width};
 use evenlight::task::Task;
 use evenlight::{Cage, FaceId, Mesh, QuadId, SchemeKind, Surface, SurfaceOptions};
 
-/// What results may differ by, as a part of the sum of |weight| |value|.
-const ROUNDING: f64 = 1e-12;
+/// What results may differ by, as a part of the largest value and of the scale of a row; 2e-14 is seen.
+const ROUNDING: f64 = 1e-13;
 
 type Place = (QuadId, f64, f64);
 
@@ -219,6 +220,29 @@ fn places_are_those_of_the_surface_at_any_depth() {
                 &jets(&surface, &places),
             );
             check_sums(options.scheme.name(), &stencils, 2, &scales);
+        }
+    }
+}
+
+/// Curvature of results loses what the docs say: about 1e-16 lambda^-l of it in ring l.
+#[test]
+fn curvature_of_results_is_lost_slowly() {
+    let cage = common::cage("obstacle/saddle_n5.obj");
+    for scheme in SchemeKind::ALL {
+        let surface = common::surface(&cage, scheme);
+        let (point, rings) = (&surface.extraordinary_points()[0], surface.rings(0).unwrap());
+        let sector = point.sectors[0];
+        let builder = StencilBuilder::of_surface(&surface).unwrap();
+        for ring in 0..30 {
+            let depth = 0.8 * rings.sigma().powi(ring);
+            let along = |k: usize| depth * (sector.along[0][k] + 0.3 * sector.along[1][k]);
+            let place = (sector.quad, sector.center[0] + along(0), sector.center[1] + along(1));
+            let rows = builder.places(&[place], 2).unwrap().apply(surface.positions()).unwrap();
+            let [p, du, dv, duu, duv, dvv] = rows[..] else { panic!("6 rows") };
+            let (_, mean) = Jet { p, du, dv, duu, duv, dvv }.curvature();
+            let exact = surface.eval(place.0, place.1, place.2).unwrap().mean;
+            let bound = 1e-13 * rings.lambda().powi(-ring) * (1.0 + exact.abs());
+            assert!((mean - exact).abs() < bound, "{scheme:?}, ring {ring}: {mean}, not {exact}");
         }
     }
 }

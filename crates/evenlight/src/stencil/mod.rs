@@ -5,11 +5,13 @@
 //! interpolated like positions, by a short sum.
 //!
 //! ```text
-//!   S V = results          rows                                     of a place (quad, u, v)
-//!                          vertices of the refined cage             p
-//!   columns: vertices of   Bernstein-Bezier coefficients            p, du, dv
-//!   the cage, or values    places on the limit surface              p, du, dv, duu, duv, dvv
-//!   of a primvar
+//!        columns: the vertices of the cage, or the values of a primvar
+//!       +---------------------------------+
+//!    S  | 0  1/2 1/2  0   0   0   0   0   |   rows: the vertices of the refined cage,
+//!       | 0  1/6 4/6 1/6  0   0   0   0   |         the Bernstein-Bezier coefficients of patches, or
+//!       | 0 -1/2  0  1/2  0   0   0   0   |         p, du, dv, duu, duv, dvv of places (quad, u, v)
+//!       +---------------------------------+
+//!                                                 S V = results
 //! ```
 //!
 //! ```
@@ -32,18 +34,20 @@
 //! ```
 //!
 //! **Exactness.** The rows of positions sum to 1, those of derivatives to 0, and results are those of
-//! [`Surface`] to rounding, relative to the sum of |weight| |value|. That holds at any depth around an
-//! extraordinary point, also for derivatives, whose weights shrink or grow with them. What stencils
-//! lose there is what a sum of weights cannot keep: in ring l the height above the limit tangent plane is
-//! lambda^l times as small as the tangential part of a derivative, so that curvature computed of
-//! their results has a relative error of about 1e-16 lambda^-l. [`Surface::eval`] has it exact.
+//! [`Surface`] to rounding, with every scheme, at boundaries, creases, caps and seams. Derivatives of
+//! order k are exact relative to (lambda / sigma^k)^l times the extent of the net, in ring l around a
+//! point whose rings shrink by lambda and their parameters by sigma. That is their own size at any depth,
+//! but for what cancels: the height above the limit tangent plane is lambda^l times as small as the
+//! tangential part of a derivative, and in one sum of weights it cannot keep digits of its own. So
+//! curvature that is computed of results has a relative error of about 1e-16 lambda^-l, and is lost
+//! after some fifty rings; [`Surface::eval`] has it exact.
 //!
 //! **At an extraordinary point itself** without a cap the row of the position is that of the limit
-//! point, and those of derivatives, which do not exist, are NaN, as the answers of [`Surface::eval`].
+//! point. Derivatives do not exist there: their rows are NaN, as the answers of [`Surface::eval`].
 //!
-//! **What is meant.** Stencils are those of the default quadratics: a surface with a quadratic of its own
-//! ([`Surface::set_quadratic`]) is not linear in its cage around that point. Caps are linear too, and are
-//! in.
+//! **What is meant.** Stencils are those of a [`Layout`]: of the default quadratics. A surface with a
+//! quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that point. Caps are
+//! linear; a surface's stencils have its caps.
 
 mod backwards;
 mod basis;

@@ -1,6 +1,7 @@
 //! Rows of a surface: of places on it and of the coefficients of its patches.
 //!
-//! A place is a few weights of the nodes of one net, found as [`Surface::eval`](crate::Surface::eval) finds the piece:
+//! A place is a few weights of the nodes of one net; its piece is found as
+//! [`Surface::eval`](crate::Surface::eval) finds it:
 //!
 //! ```text
 //!   regular piece    4 x 4 nodes     products of B-splines
