@@ -150,7 +150,7 @@ impl Record {
 fn role_name(role: Role) -> String {
     match role {
         Role::Regular => "regular".to_owned(),
-        Role::Ring(k) => format!("ring-{k}"),
+        Role::Ring(k) => format!("ring-{}", k + 1),
         Role::Cap => "cap".to_owned(),
     }
 }
@@ -158,6 +158,6 @@ fn role_name(role: Role) -> String {
 fn ring(role: Role) -> Option<usize> {
     match role {
         Role::Regular | Role::Cap => None,
-        Role::Ring(k) => Some(k),
+        Role::Ring(k) => Some(k + 1),
     }
 }

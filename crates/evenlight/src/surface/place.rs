@@ -21,7 +21,8 @@ use crate::point::scale;
 pub enum Role {
     /// A bi-3 patch whose four corners are regular.
     Regular,
-    /// A patch of ring `k` around an extraordinary point, counted from 1.
+    /// A patch of ring `k` around an extraordinary point, counted from 0 as in
+    /// [`Rings`](crate::rings::Rings); files count from 1.
     Ring(usize),
     /// A patch of the cap behind the rings around an extraordinary point.
     Cap,

@@ -203,7 +203,7 @@ impl Surface {
         let all = |surface: &dyn GridOfValues| surface.values(quad, us, vs);
         match self.channel(primvar)? {
             Channel::Linear => {
-                let places = vs.iter().flat_map(|&v| us.iter().map(move |&u| [u, v]));
+                let places = us.iter().flat_map(|&u| vs.iter().map(move |&v| [u, v]));
                 places.map(|at| Some(self.eval_linear(primvar, quad, at)?.p)).collect()
             }
             Channel::Smooth1(surface) => Some(all(surface)),
@@ -257,7 +257,8 @@ trait GridOfValues {
 impl<const N: usize> GridOfValues for Surface<N> {
     fn values(&self, quad: QuadId, us: &[f64], vs: &[f64]) -> Vec<[f64; 4]> {
         let mut found = vec![[f64::NAN; N]; us.len() * vs.len()];
-        self.eval_grid(quad, us, vs, &mut found);
+        let all = self.eval_grid(quad, us, vs, &mut found);
+        debug_assert_eq!(all, Ok(()), "there is an answer for every pair");
         let in_four = |x: &[f64; N]| std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0));
         found.iter().map(in_four).collect()
     }
