@@ -10,12 +10,13 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 18] = [
+const LAYERS: [&str; 20] = [
     "point",
     "angle",
     "task",
     "quadrature",
     "dense",
+    "sparse",
     "patch",
     "net",
     "mesh",
@@ -24,6 +25,7 @@ const LAYERS: [&str; 18] = [
     "cap",
     "basis",
     "surface",
+    "stencil",
     "complex",
     "tessellate",
     "analyse",

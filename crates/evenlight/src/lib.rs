@@ -63,6 +63,7 @@
 //! | [`cap`] | finitely many patches instead of all further rings |
 //! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
+//! | [`stencil`] | the surface as weights of the cage's vertices |
 //! | [`complex`] | its patches, and the edges and vertices where they meet |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
@@ -90,6 +91,8 @@ pub mod point;
 mod quadrature;
 pub mod rings;
 pub mod scheme;
+mod sparse;
+pub mod stencil;
 pub mod surface;
 pub mod task;
 pub mod tessellate;

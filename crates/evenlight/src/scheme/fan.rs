@@ -98,6 +98,16 @@ impl FanLimit {
         self.shape
     }
 
+    /// The number of nodes of the net, the node c being the last.
+    pub(crate) fn num_nodes(&self) -> usize {
+        2 * self.shape.lines() + 4 * self.shape.faces + 1
+    }
+
+    /// The limit point by the nodes, c being the last.
+    pub(crate) fn point(&self) -> &Row {
+        &self.point
+    }
+
     /// The rows of the two directions that span the tangent plane, c being the last node, the first
     /// along the crease if there is one; `None` if there are none such.
     pub(crate) fn tangent_rows(&self) -> Option<&[Row; 2]> {

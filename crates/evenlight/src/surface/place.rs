@@ -105,7 +105,7 @@ impl Square {
 }
 
 /// The corner of the quarter of a square in which a point lies.
-pub(super) fn quadrant([u, v]: [f64; 2]) -> usize {
+pub(crate) fn quadrant([u, v]: [f64; 2]) -> usize {
     match (u > 0.5, v > 0.5) {
         (false, false) => 0,
         (true, false) => 1,
@@ -116,7 +116,7 @@ pub(super) fn quadrant([u, v]: [f64; 2]) -> usize {
 
 /// The sector parameters (a,b) of a point (u,v) of a square, the extraordinary point being at
 /// the square's corner `corner`: a runs to the next corner, b to the one before.
-pub(super) fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
     match corner {
         0 => [u, v],
         1 => [v, 1.0 - u],

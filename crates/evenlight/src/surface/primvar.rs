@@ -77,6 +77,11 @@ impl Channel {
     }
 }
 
+/// The layout of a smooth face-varying primvar, and the number of the value at each of its vertices.
+pub(crate) fn own_layout(layout: &Layout, primvar: &Primvar) -> Option<(Arc<Layout>, Vec<u32>)> {
+    Channel::own_layout(layout, primvar)
+}
+
 /// The surface of a primvar over a layout at whose vertices it has the values of these numbers.
 fn surface<const N: usize>(
     layout: &Arc<Layout>,
