@@ -14,7 +14,7 @@ const LAYERS: [&str; 17] = [
     "point",
     "angle",
     "quadrature",
-    "parallel",
+    "task",
     "dense",
     "patch",
     "net",

@@ -5,8 +5,7 @@ use evenlight::cap::{CapError, CapKind, CapOptions};
 use evenlight::{SchemeKind, Surface};
 
 use crate::error::Failure;
-use crate::input;
-use crate::options::SurfaceArgs;
+use crate::surface::{self, SurfaceArgs};
 
 /// What closes the holes behind rings.
 #[derive(Args, Clone, Copy, Debug)]
@@ -55,7 +54,7 @@ impl CapArg {
     /// The surface that `args` ask for, with caps behind `rings` rings if they are asked for.
     pub fn read(self, args: &SurfaceArgs, rings: u8) -> Result<Surface, Failure> {
         let kind = self.kind(&[args.scheme])?;
-        let mut surface = input::read_surface(args)?;
+        let mut surface = surface::read_surface(args)?;
         close(&mut surface, kind, rings.into())?;
         Ok(surface)
     }

@@ -13,9 +13,10 @@ use evenlight::{Cage, RuleSet, SchemeKind, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
-use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text, valence_warning};
+use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text};
 use crate::options::{BoundaryArg, scheme_parser};
 use crate::output::Target;
+use crate::surface::valence_warning;
 
 mod fix;
 

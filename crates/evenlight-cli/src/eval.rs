@@ -9,15 +9,15 @@ use std::io::{self, Write};
 
 use clap::Args;
 use evenlight::mesh::Primvar;
+use evenlight::patch::Answer;
 use evenlight::{FaceId, QuadId, Surface, SurfacePoint};
-use rayon::prelude::*;
 
 use crate::cap::CapRingsArg;
 use crate::error::Failure;
 use crate::input::{self, Source, WHY_OMITTED};
-use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::SurfaceArgs;
 
 /// Arguments of `evenlight eval`.
 #[derive(Args, Debug)]
@@ -98,12 +98,11 @@ pub fn evaluate(
 }
 
 fn answers(surface: &Surface, rows: &[Row], quads: &[QuadId]) -> Vec<SurfacePoint> {
-    let queries = rows.par_iter().zip(quads);
-    queries
-        .map(|(row, &quad)| {
-            surface.eval(quad, row.u, row.v).expect("rows on omitted faces were refused")
-        })
-        .collect()
+    let places: Vec<_> = rows.iter().zip(quads).map(|(row, &quad)| (quad, row.u, row.v)).collect();
+    // Rows on omitted faces were refused: there is an answer everywhere.
+    let mut answers = vec![SurfacePoint::NAN; rows.len()];
+    surface.eval_each(&places, &mut answers);
+    answers
 }
 
 fn write_row(

@@ -8,9 +8,9 @@ use evenlight::tessellate::{CornerChannels, TriangleMesh, tessellate};
 
 use crate::cap::CapRingsArg;
 use crate::error::{Failure, warn};
-use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::SurfaceArgs;
 
 /// Arguments of `evenlight mesh`.
 #[derive(Args, Debug)]
@@ -56,8 +56,7 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     progress.stage("Building the surface");
     let surface = args.caps.read(&args.surface)?;
     progress.step();
-    progress.stage("Evaluating vertices");
-    let mesh = triangles(&surface, args.rate.into())?;
+    let mesh = progress.show(|| triangles(&surface, args.rate.into()))?;
     progress.step();
     progress.stage("Writing triangles");
     let channels = match format {

@@ -8,9 +8,6 @@ use evenlight::mesh::BoundaryRule;
 use evenlight::surface::CreaseRings;
 use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
 
-use crate::input::CageArg;
-use crate::q::QArg;
-
 /// Options that stand before or after any subcommand.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct Global {
@@ -22,26 +19,6 @@ pub struct Global {
     /// Number of threads; the results do not depend on it [default: one per core]
     #[arg(long, global = true, display_order = 101, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-}
-
-/// The cage and the rules that make a surface of it.
-#[derive(Args, Clone, Debug)]
-pub struct SurfaceArgs {
-    #[command(flatten)]
-    pub cage: CageArg,
-
-    /// Subdivision scheme; what it is like around an extraordinary point of valence n
-    #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
-    pub scheme: SchemeKind,
-
-    #[command(flatten)]
-    pub rules: RulesArg,
-
-    #[command(flatten)]
-    pub boundary: BoundaryArg,
-
-    #[command(flatten)]
-    pub q: QArg,
 }
 
 /// What happens at the boundary and beside creases.
@@ -130,13 +107,6 @@ impl RulesArg {
             return SurfaceOptions { contraction: Contraction::CatmullClark, ..options };
         }
         options
-    }
-}
-
-impl SurfaceArgs {
-    /// Scheme and rules in the library's terms.
-    pub fn options(&self) -> SurfaceOptions {
-        self.boundary.applied_to(self.rules.options(self.scheme))
     }
 }
 

@@ -10,9 +10,10 @@ use serde::{Serialize, Serializer};
 
 use crate::cap::CapArg;
 use crate::error::Failure;
-use crate::options::{SurfaceArgs, rules_name};
+use crate::options::rules_name;
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::SurfaceArgs;
 
 /// Arguments of `evenlight patches`.
 #[derive(Args, Debug)]

@@ -11,11 +11,11 @@
 //!
 //! ```
 //! use std::sync::Arc;
-//! use evenlight::io::obj;
+//! use evenlight::io::load::Format;
 //!
 //! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
 //!             f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-//! let (cage, notices) = obj::read_cage(text.as_bytes())?;
+//! let (cage, notices) = Format::Obj.read_cage(text.as_bytes())?;
 //! assert!(notices.is_empty());
 //! assert_eq!(cage.interior_valences(), [(3, 8)].into());
 //!
@@ -54,6 +54,7 @@
 //! | module | |
 //! | --- | --- |
 //! | [`point`] | points and vectors |
+//! | [`task`] | threads, progress, cancelling |
 //! | [`patch`] | Bernstein-Bezier patches, jets |
 //! | [`net`] | control nets around one extraordinary point, the quadratic q |
 //! | [`mesh`] | cages, connectivity, isolation of extraordinary points |
@@ -80,7 +81,6 @@ mod dense;
 pub mod io;
 pub mod mesh;
 pub mod net;
-mod parallel;
 pub mod patch;
 #[cfg(feature = "picture")]
 pub mod picture;
@@ -89,6 +89,7 @@ mod quadrature;
 pub mod rings;
 pub mod scheme;
 pub mod surface;
+pub mod task;
 pub mod tessellate;
 
 pub use mesh::{Cage, FaceId, Mesh, VertexId};

@@ -8,6 +8,7 @@ use std::collections::{HashMap, HashSet};
 
 use evenlight::mesh::{Mesh, Topology};
 use evenlight::point::{Point, cross, dot, norm, sub, unit};
+use evenlight::task::Task;
 use evenlight::tessellate::{ParametricTriangle, TessellateError, TriangleMesh, tessellate};
 use evenlight::{Cage, FaceId, SchemeKind, Surface, VertexId};
 
@@ -369,14 +370,12 @@ fn impossible_rates_are_errors() {
     }
 }
 
-#[cfg(feature = "parallel")]
 #[test]
 fn the_number_of_threads_does_not_change_a_byte() {
     let surface = surface(obstacle("frame_cube_n6"), SchemeKind::EvolvingGuide);
     let bytes = [1, 2, 5].map(|num_threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
         let mut bytes = Vec::new();
-        let mesh = pool.install(|| tessellate(&surface, 7)).unwrap();
+        let mesh = Task::new().threads(num_threads).run(|| tessellate(&surface, 7)).unwrap();
         evenlight::io::ply_out::write(&mesh, &mut bytes).unwrap();
         bytes
     });

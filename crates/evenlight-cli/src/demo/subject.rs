@@ -13,6 +13,7 @@ use serde_json::json;
 use crate::analyze::Analysis;
 use crate::error::Failure;
 use crate::input::{self, Source};
+use crate::surface;
 
 /// The schemes that are compared.
 pub const SCHEMES: [SchemeKind; 3] =
@@ -78,7 +79,7 @@ impl Subject {
         let cage = input::read_cage(&source.clone().into())?;
         let analyse = |scheme| -> Result<Analysis, Failure> {
             let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
-            let surface = input::build(Arc::clone(&cage), options, source)?;
+            let surface = surface::build(Arc::clone(&cage), options, source)?;
             Ok(Analysis::of(surface, RINGS))
         };
         let [cc, eg, qas4] = SCHEMES.map(analyse);

@@ -17,11 +17,11 @@
 
 use super::curvature::{Range, RingCurvature, curvature_over};
 use crate::cap::{Cap, Lines};
-use crate::parallel::map_indexed;
 use crate::patch::SurfacePoint;
 use crate::point::{cross, dot, norm, sub};
 use crate::rings::Rings;
 use crate::surface::{PatchPlace, Role, Surface};
+use crate::task::map_indexed;
 
 /// Samples along the side of a patch.
 const SAMPLES: usize = 16;

@@ -38,12 +38,12 @@
 //! comes from the third derivatives of the polynomials.
 
 use super::curvature::{Range, RingCurvature, curvature_over};
-use crate::parallel::map_indexed;
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Vector, add, cross, dot, norm, scale, sub};
 use crate::quadrature::GAUSS_6;
 use crate::rings::Rings;
 use crate::surface::{ExtraordinaryPoint, PatchPlace, Role, Surface};
+use crate::task::map_indexed;
 
 /// The rings, counted from the outermost, over which the shape energy is taken.
 ///

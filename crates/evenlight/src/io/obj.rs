@@ -45,8 +45,7 @@
 use std::fmt;
 use std::io::Write;
 
-use super::load::{LoadError, Loaded, Naming, Notice};
-use crate::mesh::{Cage, FaceId, Mesh, Names, Tags, VertexId};
+use crate::mesh::{FaceId, Mesh, Names, Tags, VertexId};
 
 mod channels;
 mod fault;
@@ -75,16 +74,6 @@ pub struct Obj {
     pub remarks: Vec<String>,
 }
 
-impl From<Obj> for Loaded {
-    fn from(obj: Obj) -> Self {
-        let Obj { mesh, source, skipped, unknown_tags, remarks } = obj;
-        let skipped = skipped.into_iter().map(Notice::Skipped);
-        let tags = unknown_tags.into_iter().map(Notice::UnknownTag);
-        let notices = skipped.chain(tags).chain(remarks.into_iter().map(Notice::Remark)).collect();
-        Self { mesh, naming: Naming::Lines(source), notices }
-    }
-}
-
 /// Reads an OBJ file. One pass; time and memory are linear in its length.
 ///
 /// The mesh is not checked, but every face's numbers exist.
@@ -108,24 +97,6 @@ impl From<Obj> for Loaded {
 /// ```
 pub fn read(bytes: &[u8]) -> Result<Obj, ReadError> {
     parse::read(bytes, parse::Limits::default())
-}
-
-/// Reads an OBJ file and checks its mesh; what was ignored is told beside the cage.
-///
-/// # Errors
-///
-/// As [`read`] and [`Cage::new`]. The message names vertices and faces as the file counts
-/// them, from 1, with their lines, and lists 20 faults at most.
-///
-/// ```
-/// use evenlight::io::obj;
-///
-/// let error = obj::read_cage(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n").unwrap_err();
-/// let expected = "face 1 (line 4) comes to vertex 2 (line 2) more than once: ";
-/// assert!(error.to_string().starts_with(expected));
-/// ```
-pub fn read_cage(bytes: &[u8]) -> Result<(Cage, Vec<Notice>), LoadError> {
-    Loaded::from(read(bytes)?).check()
 }
 
 /// The lines of a file on which its vertices and faces begin, counted from 1.

@@ -9,9 +9,9 @@ use super::raster::{Seen, Tile, locate};
 use super::shade::{Coat, Painter, curvature};
 use super::{RenderOptions, Style};
 use crate::analyse::highlight::HighlightLines;
-use crate::parallel::map_indexed;
 use crate::point::{Point, add, add_scaled, scale};
 use crate::surface::{QuadId, Surface};
+use crate::task::map_indexed;
 
 /// The side of a tile in pixels.
 const TILE: usize = 32;
@@ -383,13 +383,12 @@ mod tests {
     }
 
     #[test]
-    #[cfg(feature = "parallel")]
     fn the_number_of_threads_does_not_change_the_picture() {
         let surface = bipyramid(5);
         let draw = |threads: usize, style: Style| {
             let options = RenderOptions { style, size: [360, 150], ..RenderOptions::default() };
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| super::super::render(&surface, &options).unwrap())
+            let task = crate::task::Task::new().threads(threads);
+            task.run(|| super::super::render(&surface, &options).unwrap())
         };
         for style in Style::ALL {
             assert_eq!(draw(1, style), draw(2, style));

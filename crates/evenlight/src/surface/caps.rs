@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::{Layout, Surface, primvar};
 use crate::cap::{Cap, CapError, CapOptions, ValenceCap};
-use crate::parallel::map_indexed;
+use crate::task::map_indexed;
 
 /// How the surfaces over a layout are closed, without any values.
 #[derive(Debug)]

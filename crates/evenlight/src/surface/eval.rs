@@ -6,8 +6,8 @@
 use super::place::{from_sector, quadrant, to_sector};
 use super::{QuadId, Surface};
 use crate::mesh::isolation::{CORNERS, Piece};
-use crate::parallel::for_each_chunk;
 use crate::patch::{Answer, FirstJet, Jet, Parts};
+use crate::task::for_each_chunk;
 
 impl<const N: usize> Surface<N> {
     /// [`Surface::eval`] of what is wanted alone, which is told by the type: position, first

@@ -18,6 +18,7 @@
 //! A surface is a [`Layout`], which knows topology, tags and options, and the values at the vertices
 //! of the cage. Positions are values of three numbers; primvars, of one to four, are surfaces too.
 
+mod arrays;
 mod cache;
 mod caps;
 mod error;
@@ -31,6 +32,7 @@ mod primvar;
 mod rule;
 mod values;
 
+pub use arrays::{ArrayError, Number, PatchBlock, row_width};
 pub use cache::RuleCache;
 pub use error::SurfaceError;
 pub use layout::{ExtraordinaryPoint, Layout, Sector};

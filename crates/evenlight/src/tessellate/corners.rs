@@ -2,8 +2,8 @@
 
 use super::{QuadTriangles, TriangleMesh};
 use crate::mesh::{FaceId, HalfEdgeId, Interpolation, Primvar, Topology};
-use crate::parallel::map_indexed;
 use crate::surface::Surface;
+use crate::task::map_indexed;
 
 /// Values and which of them each corner of each triangle has.
 #[derive(Clone, Debug, Default, PartialEq)]

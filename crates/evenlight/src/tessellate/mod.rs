@@ -49,6 +49,7 @@ use std::collections::BTreeMap;
 use crate::patch::{FirstJet, SurfacePoint};
 use crate::point::{Point, Vector, add, cross, dot, norm, sub, unit};
 use crate::surface::{QuadId, Surface};
+use crate::task::{Cancelled, Steps};
 use nodes::{Grid, Nodes};
 use samples::samples;
 use sides::Sides;
@@ -130,6 +131,15 @@ pub enum TessellateError {
         /// The rate, after rounding.
         rate: usize,
     },
+    /// Who watches the work stopped it ([`Task::watch`](crate::task::Task::watch)).
+    #[error("the work was cancelled")]
+    Cancelled,
+}
+
+impl From<Cancelled> for TessellateError {
+    fn from(Cancelled: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }
 
 /// Cuts the surface into triangles, with `rate` segments along every edge of the cage.
@@ -155,7 +165,7 @@ pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, Tessel
     let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
     mesh.side_vertices = sides.nodes().to_vec();
     mesh.origins = origins(surface, &nodes, &sides);
-    mesh.evaluate(surface);
+    mesh.evaluate(surface)?;
     mesh.fill_what_is_missing(surface, &nodes, &sides);
     mesh.triangulate(surface, &nodes, &sides);
     Ok(mesh)
@@ -217,13 +227,14 @@ fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> 
 
 impl TriangleMesh {
     /// Computes all sides, and vertices on their first, a slice at a time.
-    fn evaluate(&mut self, surface: &Surface) {
+    fn evaluate(&mut self, surface: &Surface) -> Result<(), Cancelled> {
         const SLICE: usize = 1 << 16;
         let num_vertices = self.origins.len() - self.side_vertices.len();
         self.positions.reserve_exact(num_vertices);
         self.normals.reserve_exact(self.origins.len());
         self.gauss.reserve_exact(self.origins.len());
         self.mean.reserve_exact(self.origins.len());
+        let mut steps = Steps::new("Evaluating vertices", self.origins.len().div_ceil(SLICE))?;
         for slice in self.origins.chunks(SLICE) {
             for points in samples(surface, self.rate, slice) {
                 let missing = num_vertices - self.positions.len();
@@ -232,7 +243,9 @@ impl TriangleMesh {
                 self.gauss.extend(points.iter().map(|p| p.gauss));
                 self.mean.extend(points.iter().map(|p| p.mean));
             }
+            steps.step()?;
         }
+        Ok(())
     }
 
     /// Gives extraordinary points and other corners of quads the curvature and the normal that they
@@ -301,13 +314,13 @@ impl TriangleMesh {
     /// every triangle has the normals and curvatures of its own side of folds.
     ///
     /// ```
-    /// use evenlight::io::obj;
+    /// use evenlight::io::load::Format;
     /// use evenlight::tessellate::tessellate;
     /// use evenlight::{Surface, SurfaceOptions};
     ///
     /// let roof = "v 0 0 0\nv 1 0 1\nv 2 0 0\nv 0 1 0\nv 1 1 1\nv 2 1 0\n\
     ///             f 1 2 5 4\nf 2 3 6 5\nt crease 2/1/0 1 4 10\n";
-    /// let (cage, _) = obj::read_cage(roof.as_bytes())?;
+    /// let (cage, _) = Format::Obj.read_cage(roof.as_bytes())?;
     /// let mesh = tessellate(&Surface::build(cage, SurfaceOptions::default())?, 4)?;
     /// // Five vertices on the ridge have two sides.
     /// assert_eq!((mesh.positions.len(), mesh.normals.len()), (5 * 9, 5 * 10));

@@ -1,10 +1,10 @@
 //! What the surface says at the vertices: grids of whole quads at once.
 
 use super::VertexOrigin;
-use crate::parallel::map_indexed;
 use crate::patch::{Answer, Jet, Parts, Shape};
 use crate::point::{Point, Vector};
 use crate::surface::Surface;
+use crate::task::map_indexed;
 
 /// What a mesh keeps of the surface.
 #[derive(Clone, Copy, Debug)]

@@ -8,6 +8,7 @@ pub mod refine;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use evenlight::io::load::Format;
 use evenlight::io::obj;
 use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions};
 
@@ -50,7 +51,7 @@ fn cages_in(folders: &[PathBuf]) -> Vec<(String, Arc<Cage>)> {
         .into_iter()
         .map(|path| {
             let bytes = std::fs::read(&path).unwrap();
-            let (cage, _) = obj::read_cage(&bytes).unwrap();
+            let (cage, _) = Format::Obj.read_cage(&bytes).unwrap();
             (path.file_name().unwrap().to_string_lossy().into_owned(), Arc::new(cage))
         })
         .collect()

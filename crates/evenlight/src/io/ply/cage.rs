@@ -4,7 +4,7 @@ use super::body::Body;
 use super::channels::{self, CornerValues};
 use super::header::{Element, Header, word};
 use super::{Place, Ply, ReadError};
-use crate::io::load::Lines;
+use crate::io::lines::Lines;
 use crate::mesh::{Faces, Mesh, VertexId};
 use crate::point::Point;
 

@@ -2,8 +2,7 @@
 
 use super::{Place, ReadError};
 use crate::io::excerpt::excerpt;
-use crate::io::kind::Kind;
-use crate::io::load::Format;
+use crate::io::kind::{Format, Kind};
 
 /// How the values after the header are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use super::scene::Found;
 use super::transform::{self, Affine};
 use super::{ReadError, Usd};
 use crate::io::excerpt::excerpt;
-use crate::io::load::Lines;
+use crate::io::lines::Lines;
 use crate::mesh::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceId, FaceVaryingRule, Faces, Interpolation,
     Mesh, Primvar, VertexId,
