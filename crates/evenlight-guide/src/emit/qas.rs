@@ -66,7 +66,7 @@ use super::QasTable;"
 // The refinement rules of {splines}, valence {valence}, in the layout of Quadratic-Attraction
 // rules, derived by the crate `evenlight-guide`, module `optimal`: numerators over 10^18.
 {LAYOUT}
-use crate::scheme::tables::qas::QasTable;"
+use crate::scheme::tables::QasTable;"
         )
     }
 
