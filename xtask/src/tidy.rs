@@ -14,7 +14,8 @@ use std::path::{Path, PathBuf};
 use crate::circles::circles;
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 17] = [
+const LAYERS: [&str; 18] = [
+    "names",
     "point",
     "angle",
     "quadrature",

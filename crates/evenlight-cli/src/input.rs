@@ -97,7 +97,7 @@ fn is_no_obj(error: &LoadError) -> bool {
             let no_faces = |fault: &MeshError| matches!(fault, MeshError::NoFaces { .. });
             matches!(refusal.naming, Naming::Lines(_)) && refusal.error.errors.iter().any(no_faces)
         }
-        LoadError::Ply(_) | LoadError::Usd(_) => false,
+        _ => false,
     }
 }
 

@@ -134,7 +134,7 @@ impl Record {
         let is_quad = surface.topology().faces().corners(face).len() == 4;
         let center = placed.point.map(|i| &surface.extraordinary_points()[i]);
         Self {
-            role: role_name(placed.role),
+            role: placed.role.to_string(),
             face: face.0,
             corner: (!is_quad).then_some(corner),
             vertex: center.and_then(|p| p.vertex()).map(|v| v.0),
@@ -148,17 +148,9 @@ impl Record {
     }
 }
 
-fn role_name(role: Role) -> String {
-    match role {
-        Role::Regular => "regular".to_owned(),
-        Role::Ring(k) => format!("ring-{k}"),
-        Role::Cap => "cap".to_owned(),
-    }
-}
-
 fn ring(role: Role) -> Option<usize> {
     match role {
-        Role::Regular | Role::Cap => None,
         Role::Ring(k) => Some(k),
+        _ => None,
     }
 }

@@ -80,6 +80,7 @@ pub mod cap;
 mod dense;
 pub mod io;
 pub mod mesh;
+mod names;
 pub mod net;
 pub mod patch;
 #[cfg(feature = "picture")]
@@ -93,6 +94,7 @@ pub mod task;
 pub mod tessellate;
 
 pub use mesh::{Cage, FaceId, Mesh, VertexId};
+pub use names::UnknownName;
 pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
 pub use scheme::{Contraction, RuleSet, SchemeKind, Variant};

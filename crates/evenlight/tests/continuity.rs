@@ -3,11 +3,11 @@
 
 mod common;
 
+use evenlight::SchemeKind;
 use evenlight::analyse::continuity::continuity;
 use evenlight::point::{norm, sub};
 use evenlight::rings::Rings;
 use evenlight::surface::Role;
-use evenlight::{SchemeKind, Surface};
 
 /// Regular|regular, regular|ring 1, ring|ring, sector|sector of one point and of two, level|level.
 #[test]

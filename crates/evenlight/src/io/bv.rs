@@ -88,6 +88,7 @@ pub struct ReadError {
 
 /// What is wrong with a file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Fault {
     /// The file ends inside a group line or a patch.
     #[error("the file ends where {expected} should be")]

@@ -2,6 +2,7 @@
 
 /// The kinds of files that hold cages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Wavefront OBJ.
     Obj,

@@ -118,6 +118,7 @@ impl From<Usd> for Loaded {
 
 /// What a file calls its vertices and faces.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Naming {
     /// By their numbers from 1, and by lines.
     Lines(obj::Source),
@@ -143,6 +144,7 @@ impl Names for Naming {
 
 /// Something in a file that was ignored or completed.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Notice {
     /// The lines with a tag that is not known.
     UnknownTag(UnknownTag),
@@ -181,6 +183,7 @@ impl fmt::Display for Notice {
 
 /// Why a file gives no cage.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LoadError {
     /// It is no OBJ file.
     #[error(transparent)]

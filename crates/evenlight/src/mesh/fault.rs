@@ -13,6 +13,7 @@ use crate::point::Point;
 ///
 /// Shown with the numbers of the library, from 0; [`MeshError::describe`] takes other names.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum MeshError {
     /// There is no face.
     NoFaces {
@@ -257,6 +258,7 @@ pub(crate) fn one_per_line(listed: Vec<String>, total: usize) -> String {
 
 /// What is wrong with a primvar. Values and corners are counted from 0.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum PrimvarFault {
     /// An earlier primvar has its name.
     RepeatedName,
@@ -325,6 +327,7 @@ impl fmt::Display for PrimvarFault {
 
 /// Something that was accepted but should be known.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Warning {
     /// Vertices that are in no face; they are ignored, and the others keep their numbers.
     UnusedVertices(Vec<VertexId>),

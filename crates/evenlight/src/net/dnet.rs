@@ -86,6 +86,7 @@ impl<const N: usize> DNet<N> {
 
 /// What the nodes of a d-net are control points of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Spline {
     /// Uniform bi-3 splines with a knot at every half step.
     BiCubic,

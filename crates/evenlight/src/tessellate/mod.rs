@@ -121,6 +121,7 @@ pub struct ParametricTriangle {
 
 /// Why no triangle mesh could be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TessellateError {
     /// The rate is zero.
     #[error("the rate must be 1 or more")]

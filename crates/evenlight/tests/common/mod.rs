@@ -86,7 +86,7 @@ pub fn has_rules(scheme: SchemeKind, Variant { rules, contraction }: Variant, n:
     };
     let is_guided = matches!(scheme, Guided3 | Guided4 | Guided5 | Guided6);
     let is_derivable = is_guided && cfg!(feature = "derive");
-    (is_own_contraction || is_derivable) && (n == 3 || (5..=last).contains(&n))
+    (is_own_contraction || is_derivable) && n <= last && (n == 3 || n >= 5)
 }
 
 /// Checks that every smooth extraordinary point has the rules of the scheme if [`has_rules`] says so,
