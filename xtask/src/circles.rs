@@ -12,9 +12,10 @@
 //!       '<----------'
 //! ```
 //!
-//! What a module says itself, in its own file, is the common ground of its children: a child may use
-//! it, and the module may use and re-export its children, as `mod.rs` does. A re-export is looked
-//! through: who names `super::X`, which the parent takes from a child by `use`, names that child.
+//! What a module says itself, in its own file, is the common ground of its children: a child may
+//! use it, and the module may use and re-export its children, as `mod.rs` does. A re-export is
+//! looked through: who names `super::X`, which the parent takes from a child by `use`, names that
+//! child.
 //!
 //! Read are the paths that begin with `crate::`, `super::` or `self::` outside of comments and
 //! tests; no other path can leave a module without a `use`.
@@ -105,8 +106,8 @@ fn module_of(path: &str) -> Module {
     names
 }
 
-/// The paths at the ends of the tree of a `use`, or the single path, at the beginning of `text`, each
-/// with the name that it gets.
+/// The paths at the ends of the tree of a `use`, or the single path, at the beginning of `text`,
+/// each with the name that it gets.
 fn leaves(text: &str) -> Vec<(Vec<String>, String)> {
     let mut found = Vec::new();
     tree(text, &[], &mut found);
@@ -156,8 +157,8 @@ fn tree<'a>(text: &'a str, outer: &[String], found: &mut Vec<(Vec<String>, Strin
 /// Re-exports of re-exports are looked through so often.
 const MAX_RENAMINGS: usize = 8;
 
-/// The module that a path in `module` leads to, through `renamings` re-exports at most; `None` out of
-/// the crate.
+/// The module that a path in `module` leads to, through `renamings` re-exports at most; `None` out
+/// of the crate.
 fn resolved(
     module: &Module,
     path: &[String],

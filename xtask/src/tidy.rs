@@ -127,9 +127,10 @@ fn check_file(name: &str, text: &str, keys: &BTreeSet<String>, faults: &mut Vec<
     check_functions(name, text, faults);
 }
 
-/// Whether a line is a comment alone.
+/// Whether a line is a comment alone, and no row of a table, which cannot be broken.
 fn is_comment(line: &str) -> bool {
-    line.trim_start().starts_with("//")
+    let text = line.trim_start();
+    text.starts_with("//") && !text.trim_start_matches(['/', '!']).trim_start().starts_with('|')
 }
 
 /// The keys cited in a line: after `[`, letters, two digits of a year, perhaps a suffix `-EG`.

@@ -24,7 +24,8 @@ pub enum CapChoice {
     None,
     /// What suits the scheme: bi6 for guided6, else bi5
     Auto,
-    /// Bi-3, 3 x 3 patches per sector (more where the rings are split); tangent planes across lines agree to small angles only
+    /// Bi-3, 3 x 3 patches per sector (more where the rings are split); tangent planes across lines
+    /// agree to small angles only
     Bi3,
     /// Bi-4, 2 x 2 patches per sector, or as the rings are split
     Bi4,

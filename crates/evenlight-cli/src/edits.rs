@@ -123,7 +123,8 @@ fn quadratic(surface: &Surface, point: usize, change: &Change) -> Result<Quadrat
         let (rule, reason) = match place.rule {
             PointRule::CatmullClark(reason) => ("Catmull-Clark's rule", reason.to_string()),
             PointRule::FairCrease(reason) => ("the fair rule beside a crease", reason.to_string()),
-            _ => ("a rule", "not with this scheme".to_owned()),
+            PointRule::Scheme => ("Catmull-Clark's rule", "no quadratic".to_owned()),
+            _ => ("another rule", "not that of the scheme".to_owned()),
         };
         return Err(format!("the point has {rule} ({reason}), which has no q"));
     };

@@ -60,8 +60,8 @@ impl Source {
         }
     }
 
-    /// The failure that a cage from here cannot be used; says why it was read as OBJ, if that may be
-    /// the cause.
+    /// The failure that a cage from here cannot be used; says why it was read as OBJ, if that may
+    /// be the cause.
     pub fn refused(&self, error: &LoadError) -> Failure {
         let is_file = matches!(self, Self::File(_));
         let note = match (self.format(), is_other_kind(error)) {

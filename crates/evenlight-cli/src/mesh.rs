@@ -21,8 +21,8 @@ pub struct MeshArgs {
     #[command(flatten)]
     caps: CapRingsArg,
 
-    /// The file to write: .obj with normals, .ply or .glb with normals and curvature, these with the
-    /// texture coordinates and colours of the cage, or .stl; `-` for stdout
+    /// The file to write: .obj with normals, .ply or .glb with normals and curvature, these with
+    /// the texture coordinates and colours of the cage, or .stl; `-` for stdout
     #[arg(short, long, value_name = "FILE")]
     output: Target,
 

@@ -30,8 +30,8 @@ pub struct BoundaryArg {
     #[arg(long, value_name = "RULE", value_parser = named(BoundaryRule::ALL, BoundaryRule::name, about_boundary))]
     pub boundary: Option<BoundaryRule>,
 
-    /// The rings of vertices on infinitely sharp creases and the boundary that are not regular there;
-    /// the curves of creases are the same with both
+    /// The rings of vertices on infinitely sharp creases and the boundary that are not regular
+    /// there; the curves of creases are the same with both
     #[arg(long, value_name = "RINGS", default_value_t, value_parser = named(CreaseRings::ALL, CreaseRings::name, about_creases))]
     pub creases: CreaseRings,
 }

@@ -23,8 +23,8 @@ fn cnet(n: usize) -> CNet {
     CNet { sectors: (0..n).map(|_| [0; 6].map(|_| point())).collect(), center: point() }
 }
 
-/// Whether the words of [`SchemeKind::valences`] have `n`: "none", or parts with "and" between them,
-/// each a number or "A to B".
+/// Whether the words of [`SchemeKind::valences`] have `n`: "none", or parts with "and" between
+/// them, each a number or "A to B".
 fn says(words: &str, n: usize) -> bool {
     let has = |part: &str| match part.split_once(" to ") {
         Some((first, last)) => (first.parse().unwrap()..=last.parse().unwrap()).contains(&n),

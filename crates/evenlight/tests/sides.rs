@@ -83,8 +83,8 @@ fn smooth_cages_have_one_side_per_vertex() {
     }
 }
 
-/// Boundaries, holes, corners and semi-sharp edges fold nothing; and there is no side that no triangle
-/// has.
+/// Boundaries, holes, corners and semi-sharp edges fold nothing; and there is no side that no
+/// triangle has.
 #[test]
 fn there_are_no_more_sides_than_infinitely_sharp_edges_make() {
     let mut num_folded = 0;
@@ -124,8 +124,8 @@ fn every_corner_has_the_normal_of_its_own_quad() {
     }
 }
 
-/// Two triangles at an edge have the same sides at its ends, but along infinitely sharp edges of the
-/// cage, where they have different sides, but at darts.
+/// Two triangles at an edge have the same sides at its ends, but along infinitely sharp edges of
+/// the cage, where they have different sides, but at darts.
 #[test]
 fn sides_change_at_sharp_edges_only() {
     let mut num_folds = 0;
@@ -165,8 +165,8 @@ fn lies_on_sharp_edge(surface: &Surface, mesh: &TriangleMesh, edge: [u32; 2], t:
     surface.is_infinitely_sharp(topology.half_edge(face, side))
 }
 
-/// A wheel of `2 f` quads around the origin, folded along the sharp y axis: on the left in the plane
-/// z = x, on the right in z = -x.
+/// A wheel of `2 f` quads around the origin, folded along the sharp y axis: on the left in the
+/// plane z = x, on the right in z = -x.
 fn folded_wheel(f: u32) -> Mesh {
     let num_rim = 4 * f;
     let rim = |k: u32| {
@@ -241,8 +241,8 @@ fn texture_coordinates_come_first_by_name_and_colours_by_name() {
     assert_eq!((color.name.as_str(), color.width), ("displayColor", 3));
 }
 
-/// Split vertices are all different, and their triangles have at every corner the side and the values
-/// that the mesh has there.
+/// Split vertices are all different, and their triangles have at every corner the side and the
+/// values that the mesh has there.
 #[test]
 fn split_vertices_have_one_value_of_everything() {
     let (mesh, CornerChannels { uv_sets, color }) = painted();

@@ -171,7 +171,8 @@ fn at(sector: &Sector, [a, b]: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| sector.center[k] + a * sector.along[0][k] + b * sector.along[1][k])
 }
 
-/// The magnification at which the sectors around a point, by its index, fill the picture, in halves.
+/// The magnification at which the sectors around a point, by its index, fill the picture, in
+/// halves.
 fn zoom(surface: &Surface, point: usize) -> f64 {
     let center = surface.rings(point).map_or([0.0; 3], Rings::center);
     let point = &surface.extraordinary_points()[point];

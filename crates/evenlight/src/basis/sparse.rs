@@ -1,6 +1,7 @@
 //! Sparse matrices, row by row.
 
-/// A sparse matrix in compressed rows: what takes the coefficients of one space to those of another.
+/// A sparse matrix in compressed rows: what takes the coefficients of one space to those of
+/// another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SparseMatrix {
     num_columns: usize,
@@ -10,8 +11,8 @@ pub struct SparseMatrix {
 }
 
 impl SparseMatrix {
-    /// The matrix with these rows, each a list of columns and entries. Columns of a row should rise;
-    /// entries of one column add up.
+    /// The matrix with these rows, each a list of columns and entries. Columns of a row should
+    /// rise; entries of one column add up.
     ///
     /// # Panics
     ///

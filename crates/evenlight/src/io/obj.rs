@@ -17,13 +17,13 @@
 //!
 //! A line ends with LF, CRLF or CR; `\` at its end joins the next one to it, except in a
 //! comment. Blanks may stand anywhere between words, also before the first. What is read over is
-//! reported in one sentence, every other tag is counted and reported once. Only words that matter are looked at: the bytes need not be
-//! UTF-8, and a byte order mark is skipped.
+//! reported in one sentence, every other tag is counted and reported once. Only words that matter
+//! are looked at: the bytes need not be UTF-8, and a byte order mark is skipped.
 //!
 //! Tags are those of the shapes that OpenSubdiv is tested with; they count from 0:
 //!
 //! ```text
-//! t crease 2/1/0 V W SHARPNESS               or several pairs, with one number for all or one each;
+//! t crease 2/1/0 V W SHARPNESS               or several pairs, one number for all or one each;
 //!                                            or a chain: an odd number of vertices, or one number
 //!                                            for each of its edges
 //! t corner 1/1/0 V SHARPNESS                 or several, likewise

@@ -148,8 +148,8 @@ impl Primvar {
         matches!(self.name.as_str(), "st" | "uv")
     }
 
-    /// Whether files take this for a colour: three numbers, or four with the opacity, under the name
-    /// `color` (of OBJ and PLY) or `displayColor` (of USD).
+    /// Whether files take this for a colour: three numbers, or four with the opacity, under the
+    /// name `color` (of OBJ and PLY) or `displayColor` (of USD).
     pub fn is_color(&self) -> bool {
         matches!(self.width, 3 | 4) && matches!(self.name.as_str(), "color" | "displayColor")
     }

@@ -1,7 +1,7 @@
 //! The schemes: which linear rules make the rings around an extraordinary point.
 //!
-//! A scheme is a pair of linear maps per valence (module `rules`): net to refined net, and both to a
-//! ring of Bernstein-Bezier patches. Nothing here knows a mesh.
+//! A scheme is a pair of linear maps per valence (module `rules`): net to refined net, and both to
+//! a ring of Bernstein-Bezier patches. Nothing here knows a mesh.
 
 mod catmull_clark;
 mod contraction;
@@ -53,8 +53,8 @@ pub enum SchemeKind {
     Guided5,
     /// Guided C2 subdivision [KP18-Guided]: bi-6 rings, curvature continuous at the centre.
     Guided6,
-    /// Fairness-optimal subdivision, ours: the net of [`Self::Qas4`] with the rules of least energy,
-    /// bi-4 rings, curvature bounded at the centre.
+    /// Fairness-optimal subdivision, ours: the net of [`Self::Qas4`] with the rules of least
+    /// energy, bi-4 rings, curvature bounded at the centre.
     Fair4,
     /// Fairness-optimal subdivision without a quadratic that can be set: the net of
     /// [`Self::EvolvingGuide`], bi-4 rings; curvature is bounded at the centre, but not given.
@@ -214,7 +214,8 @@ impl SchemeKind {
         }
     }
 
-    /// The control net on which the rules of schemes without a guide work, from a c-net relative to its limit point.
+    /// The control net on which the rules of schemes without a guide work, from a c-net relative to
+    /// its limit point.
     pub(crate) fn net<const N: usize>(self, cnet: &CNet<N>) -> Vec<[f64; N]> {
         match self.spline() {
             None => cnet.sectors.iter().flatten().copied().collect(),

@@ -66,9 +66,9 @@ pub fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Surface {
     Surface::build(cage.clone(), options(scheme)).unwrap()
 }
 
-/// Whether a scheme is to have rules at valence `n`, said independently of the library: Catmull-Clark
-/// from 2 to 1024; the others at 3 and from 5 on, as far as papers print them, tables reach, or
-/// guided rules can be derived.
+/// Whether a scheme is to have rules at valence `n`, said independently of the library:
+/// Catmull-Clark from 2 to 1024; the others at 3 and from 5 on, as far as papers print them, tables
+/// reach, or guided rules can be derived.
 pub fn has_rules(scheme: SchemeKind, Variant { rules, contraction }: Variant, n: usize) -> bool {
     use SchemeKind::{
         CatmullClark, EvolvingGuide, Fair3, Fair4, Fair4d, Guided3, Guided4, Guided5, Guided6,
@@ -89,8 +89,8 @@ pub fn has_rules(scheme: SchemeKind, Variant { rules, contraction }: Variant, n:
     (is_own_contraction || is_derivable) && n <= last && (n == 3 || n >= 5)
 }
 
-/// Checks that every smooth extraordinary point has the rules of the scheme if [`has_rules`] says so,
-/// and else, for its valence, those of Catmull-Clark; and that all have rings.
+/// Checks that every smooth extraordinary point has the rules of the scheme if [`has_rules`] says
+/// so, and else, for its valence, those of Catmull-Clark; and that all have rings.
 pub fn assert_rules(name: &str, surface: &Surface) {
     let SurfaceOptions { scheme, rules, contraction, .. } = surface.options();
     for (k, point) in surface.extraordinary_points().iter().enumerate() {

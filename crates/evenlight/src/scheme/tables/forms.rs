@@ -71,8 +71,8 @@ pub(super) struct QasTable {
 pub(super) struct GuidedTable {
     /// The valence n.
     pub valence: usize,
-    /// For each of the coefficients that are listed the weights of the nodes (0,1) (0,2) (1,1) (1,2) (2,1) (2,2) of
-    /// sectors s + r: r = -1, 0, 1, .. for p_i0, r = 0, 1, .. for all others.
+    /// For each of the coefficients that are listed the weights of the nodes (0,1) (0,2) (1,1)
+    /// (1,2) (2,1) (2,2) of sectors s + r: r = -1, 0, 1, .. for p_i0, r = 0, 1, .. for all others.
     pub coefs: [&'static [[i64; CNET_NODES]]; 20],
     /// The map of a cap.
     #[cfg_attr(not(test), expect(dead_code, reason = "surfaces have rings at any depth, no caps"))]
