@@ -200,7 +200,7 @@ fn rings(mesh: &Mesh, creases: CreaseRings) -> Result<[Ring; RINGS], Box<dyn Err
     let mut rings = [Ring { energy: 0.0, mean: Range::EMPTY }; RINGS];
     for place in surface.patch_places(RINGS).filter(|place| place.point == Some(point)) {
         let Role::Ring(number) = place.role else { continue };
-        let ring = &mut rings[number - 1];
+        let ring = &mut rings[number];
         ring.energy += shape_energy(&surface.patch(&place).unwrap());
         ring.mean = ring.mean.union(curvature_over(&surface, &place).mean);
     }

@@ -328,7 +328,7 @@ fn ring_lengths(surface: &Surface, rings: &[usize]) -> Vec<[f64; 2]> {
     let mut found = vec![vec![empty; points]; rings.len()];
     for place in surface.patch_places(last) {
         let (Some(point), Role::Ring(ring)) = (place.point, place.role) else { continue };
-        if let Some(k) = rings.iter().position(|&shown| shown == ring) {
+        if let Some(k) = rings.iter().position(|&shown| shown == ring + 1) {
             let here = curvature_over(surface, &place);
             let all = &mut found[k][point];
             (all.mean, all.gauss) = (all.mean.union(here.mean), all.gauss.union(here.gauss));

@@ -101,7 +101,7 @@ fn answers(surface: &Surface, rows: &[Row], quads: &[QuadId]) -> Vec<SurfacePoin
     let places: Vec<_> = rows.iter().zip(quads).map(|(row, &quad)| (quad, row.u, row.v)).collect();
     // Rows on omitted faces were refused: there is an answer everywhere.
     let mut answers = vec![SurfacePoint::NAN; rows.len()];
-    surface.eval_each(&places, &mut answers);
+    surface.eval_each(&places, &mut answers).expect("there is an answer for every place");
     answers
 }
 

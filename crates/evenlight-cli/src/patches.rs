@@ -150,7 +150,7 @@ impl Record {
 
 fn ring(role: Role) -> Option<usize> {
     match role {
-        Role::Ring(k) => Some(k),
+        Role::Ring(k) => Some(k + 1),
         _ => None,
     }
 }

@@ -46,8 +46,8 @@ fn ring_ranges(surface: &Surface, point: usize, rings: usize) -> Vec<RingCurvatu
     for place in surface.patch_places(rings).filter(|place| place.point == Some(point)) {
         let Role::Ring(ring) = place.role else { continue };
         let here = curvature_over(surface, &place);
-        found[ring - 1].mean = found[ring - 1].mean.union(here.mean);
-        found[ring - 1].gauss = found[ring - 1].gauss.union(here.gauss);
+        found[ring].mean = found[ring].mean.union(here.mean);
+        found[ring].gauss = found[ring].gauss.union(here.gauss);
     }
     found
 }

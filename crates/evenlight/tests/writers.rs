@@ -199,11 +199,11 @@ fn placed(role: Role, z: f64) -> PlacedPatch {
 #[test]
 fn bv_has_one_group_for_each_role_whatever_the_order() {
     let mixed = [
-        placed(Role::Ring(2), 1.0),
+        placed(Role::Ring(1), 1.0),
         placed(Role::Regular, 2.0),
-        placed(Role::Ring(1), 3.0),
+        placed(Role::Ring(0), 3.0),
         placed(Role::Regular, 4.0),
-        placed(Role::Ring(2), 0.1),
+        placed(Role::Ring(1), 0.1),
     ];
     let text = String::from_utf8(written(|out| bv::write(mixed, out))).unwrap();
     let patch = |z| format!("5 1 1\n0 0 {z}\n0 1 {z}\n1 0 {z}\n1 1 {z}\n");

@@ -103,7 +103,7 @@ fn report_of(surface: &Surface, point: usize, cap: &Cap, places: &[PatchPlace]) 
         }
         found
     };
-    let last_two = |role: Role| matches!(role, Role::Ring(k) if k + 2 > cap.rings());
+    let last_two = |role: Role| matches!(role, Role::Ring(k) if k + 2 >= cap.rings());
     let scale = around.scale();
     let relative = |defect: Defect| Defect {
         curvature: if scale == 0.0 { 0.0 } else { defect.curvature / scale },

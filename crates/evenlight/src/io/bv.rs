@@ -33,12 +33,13 @@ pub fn write(
     patches: impl IntoIterator<Item = PlacedPatch>,
     out: &mut impl Write,
 ) -> io::Result<()> {
+    // By their numbers from 1.
     let mut rings: BTreeMap<usize, Vec<Patch>> = BTreeMap::new();
     let mut caps: Vec<Patch> = Vec::new();
     let mut has_regular = false;
     for placed in patches {
         match placed.role {
-            Role::Ring(k) => rings.entry(k).or_default().push(placed.patch),
+            Role::Ring(k) => rings.entry(k + 1).or_default().push(placed.patch),
             Role::Cap => caps.push(placed.patch),
             Role::Regular => {
                 if !has_regular {

@@ -128,6 +128,9 @@ struct Splitter<'a> {
 impl Splitter<'_> {
     /// Makes the vertices of the channel at `v`, and says how sharp they are.
     fn split(&mut self, v: VertexId) {
+        if !self.topology.ring(v).any(|h| self.is_seam(h)) {
+            return self.keep(v);
+        }
         let fans = self.fans(v);
         let sharpness = self.fan_sharpness(v, &fans);
         for (k, (fan, sharpness)) in fans.iter().zip(sharpness).enumerate() {
@@ -142,6 +145,20 @@ impl Splitter<'_> {
             if beyond != Beyond::default() {
                 self.beyond.insert(vertex, beyond);
             }
+        }
+    }
+
+    /// Makes the one vertex of the channel at `v`, where there is neither a seam nor a boundary.
+    fn keep(&mut self, v: VertexId) {
+        let Some(first) = self.topology.ring(v).next() else { return };
+        let vertex = VertexId(self.vertices.len() as u32);
+        self.vertices.push(self.value(first));
+        for h in self.topology.ring(v) {
+            self.of_corner[h.index()] = vertex;
+        }
+        let sharpness = self.vertex_sharpness[v.index()];
+        if sharpness > 0.0 {
+            self.corners.push(Corner { vertex, sharpness });
         }
     }
 

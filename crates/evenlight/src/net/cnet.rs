@@ -14,7 +14,6 @@
 //! ```
 
 use super::NodeRef;
-use crate::point::add_scaled;
 
 /// The number of nodes that a sector of a c-net owns.
 pub(crate) const CNET_NODES: usize = 6;
@@ -89,23 +88,12 @@ impl<const N: usize> CNet<N> {
         }
     }
 
-    /// The node (a,b) of sector `s`, -2 <= a,b <= 2.
-    pub(crate) fn node(&self, s: usize, a: isize, b: isize) -> [f64; N] {
+    /// A node seen from sector `s`, e if it is none of a sector.
+    pub(super) fn node(&self, s: usize, at: Option<NodeRef>) -> [f64; N] {
         let n = self.valence() as isize;
-        cnet_node(a, b).map_or(self.center, |at| {
+        at.map_or(self.center, |at| {
             self.sectors[(s as isize + at.turn).rem_euclid(n) as usize][at.node]
         })
-    }
-
-    /// The tensor product of two univariate masks on the nodes of sector `s`.
-    pub(crate) fn tensor(&self, s: usize, u: &[(isize, f64)], v: &[(isize, f64)]) -> [f64; N] {
-        let mut sum = [0.0; N];
-        for &(a, wa) in u {
-            for &(b, wb) in v {
-                add_scaled(&mut sum, wa * wb, self.node(s, a, b));
-            }
-        }
-        sum
     }
 }
 

@@ -16,6 +16,8 @@
 //!   x --- x --- x          + centre          x: line s-1, owned by sector s-1
 //! ```
 
+use std::sync::OnceLock;
+
 use super::{CNet, NodeRef, cnet_node};
 use crate::dense::Matrix;
 use crate::point::{add_scaled, sub};
@@ -50,10 +52,15 @@ impl<const N: usize> DNet<N> {
     ///   grid nodes, one in the middle of a quad (1,1)/2;
     /// - bi-3, by knot insertion [KP23-QAS, Fig. 3]: (1,6,1)/8 and (1,1)/2.
     pub fn from_cnet(cnet: &CNet<N>, spline: Spline) -> Self {
-        let mask = |i| spline.mask(i);
-        let sectors = (0..cnet.valence())
-            .map(|s| std::array::from_fn(|k| cnet.tensor(s, &mask(k % 4), &mask(k / 4))))
-            .collect();
+        let rows = spline.rows();
+        let mut sectors = Vec::with_capacity(cnet.valence());
+        for s in 0..cnet.valence() {
+            let mut sector = [[0.0; N]; DNET_NODES];
+            for (node, row) in sector.iter_mut().zip(rows) {
+                row.iter().for_each(|&(at, w)| add_scaled(node, w, cnet.node(s, at)));
+            }
+            sectors.push(sector);
+        }
         Self { sectors }
     }
 
@@ -94,7 +101,21 @@ pub enum Spline {
     BiQuartic,
 }
 
+/// A node of a d-net by those of a c-net.
+type MaskRow = Vec<(Option<NodeRef>, f64)>;
+
 impl Spline {
+    /// The nodes of sector 0 by those of a c-net.
+    fn rows(self) -> &'static [MaskRow; DNET_NODES] {
+        static ROWS: [OnceLock<[MaskRow; DNET_NODES]>; 2] = [const { OnceLock::new() }; 2];
+        let row = |k: usize| {
+            let [u, v] = [k % 4, k / 4].map(|i| self.mask(i));
+            let terms = u.iter().flat_map(|a| v.iter().map(move |b| (a, b)));
+            terms.map(|(a, b)| (cnet_node(a.0, b.0), a.1 * b.1)).collect()
+        };
+        ROWS[self as usize].get_or_init(|| std::array::from_fn(row))
+    }
+
     /// The univariate mask of d-net index `i` on the c-net, by grid positions from the centre.
     fn mask(self, i: usize) -> Vec<(isize, f64)> {
         let p = 3 - i as isize;

@@ -58,7 +58,7 @@ impl Pieces {
             let quad = &mut quads[patch.quad.0 as usize];
             match patch.role {
                 Role::Regular => quad.regular.push(patch.domain),
-                Role::Ring(1) => quad.first_ring.push(patch.domain),
+                Role::Ring(0) => quad.first_ring.push(patch.domain),
                 Role::Ring(_) => {}
                 Role::Cap => quad.caps.push(patch.domain),
             }
@@ -96,7 +96,7 @@ impl QuadPieces {
             let in_first = [scaled(uv[0], 0, factor), scaled(uv[1], 1, factor)];
             let first = self.first_ring.iter().find(|domain| contains(domain, in_first))?;
             let domain = std::array::from_fn(|k| first[k].map(|t| scaled(t, k, 1.0 / factor)));
-            Some(Piece { role: Role::Ring(ring), domain })
+            Some(Piece { role: Role::Ring(ring - 1), domain })
         })
     }
 }
@@ -167,10 +167,10 @@ mod tests {
     fn rings_are_halved_copies_of_the_first() {
         let role = |u, v| quad().at(0, [u, v]).map(|piece| piece.role);
         assert_eq!(role(0.2, 0.2), Some(Role::Regular));
-        assert_eq!(role(0.6, 0.1), Some(Role::Ring(1)));
-        assert_eq!(role(0.9, 0.2), Some(Role::Ring(2)));
-        assert_eq!(role(1.0 - 0.4 / 64.0, 0.0), Some(Role::Ring(7)));
+        assert_eq!(role(0.6, 0.1), Some(Role::Ring(0)));
+        assert_eq!(role(0.9, 0.2), Some(Role::Ring(1)));
+        assert_eq!(role(1.0 - 0.4 / 64.0, 0.0), Some(Role::Ring(6)));
         let piece = quad().at(0, [0.8, 0.1]).unwrap();
-        assert_eq!(piece, Piece { role: Role::Ring(2), domain: [[0.75, 0.875], [0.0, 0.125]] });
+        assert_eq!(piece, Piece { role: Role::Ring(1), domain: [[0.75, 0.875], [0.0, 0.125]] });
     }
 }

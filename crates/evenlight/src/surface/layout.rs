@@ -19,7 +19,10 @@ use super::place::from_sector_parameters;
 use super::{PointRule, QuadId, SurfaceError, SurfaceOptions};
 use crate::mesh::isolation::{Extraordinary, Place, Plan};
 use crate::mesh::sharpness::Beyond;
-use crate::mesh::{Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, Tags, Topology, VertexId};
+use crate::mesh::{
+    Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, Tags, Topology, VertexId, cnet_vertices,
+    fan_vertices,
+};
 use crate::scheme::MAX_CATMULL_CLARK_VALENCE;
 
 /// Topology, tags and options of a surface, and all that follows from them.
@@ -50,6 +53,10 @@ pub struct Layout {
     points: Vec<ExtraordinaryPoint>,
     /// The rules of every point.
     rules: Vec<Arc<SharedRules>>,
+    /// The vertices of the net of every point, at its level, one net after the other.
+    net_vertices: Vec<VertexId>,
+    /// Where the net of every point begins, and the number of all.
+    net_starts: Vec<usize>,
     /// Where the rules come from, and those of primvars are to come from.
     cache: RuleCache,
     /// A hash of topology, tags and options.
@@ -159,8 +166,24 @@ impl Layout {
             rules.push(of_point);
             points.push(describe(&plan, p, rule));
         }
+        let (mut net_vertices, mut net_starts) = (Vec::new(), vec![0]);
+        for point in 0..points.len() {
+            add_net_vertices(&topology, &plan, point, &mut net_vertices);
+            net_starts.push(net_vertices.len());
+        }
         let cache = cache.clone();
-        Ok(Self { topology, tags, options, plan, points, rules, cache, fingerprint })
+        Ok(Self {
+            topology,
+            tags,
+            options,
+            plan,
+            points,
+            rules,
+            net_vertices,
+            net_starts,
+            cache,
+            fingerprint,
+        })
     }
 
     /// The connectivity.
@@ -237,6 +260,12 @@ impl Layout {
         &self.rules[point]
     }
 
+    /// The vertices of the net of a point, at the level at which it is isolated: of a c-net the centre
+    /// and six for each sector, of a fan as in [`fan_vertices`].
+    pub(crate) fn net_vertices(&self, point: usize) -> &[VertexId] {
+        &self.net_vertices[self.net_starts[point]..self.net_starts[point + 1]]
+    }
+
     /// The cache of its rules.
     pub(super) fn cache(&self) -> &RuleCache {
         &self.cache
@@ -287,6 +316,16 @@ fn refuse_high_valences(plan: &Plan) -> Result<(), SurfaceError> {
 
 fn no_rules<'a>(points: impl IntoIterator<Item = &'a Extraordinary>) -> SurfaceError {
     SurfaceError::NoRules { points: points.into_iter().map(|p| (p.place, p.valence)).collect() }
+}
+
+fn add_net_vertices(topology: &Topology, plan: &Plan, point: usize, net: &mut Vec<VertexId>) {
+    let topology = plan.topology(topology, plan.points[point].level);
+    if !plan.points[point].fan.is_smooth() {
+        return net.extend(fan_vertices(topology, plan.placed_fan(point)));
+    }
+    let first = plan.first_half_edges[point];
+    net.push(topology.origin(first));
+    cnet_vertices(topology, first).iter().for_each(|sector| net.extend(sector));
 }
 
 /// A point for users of the library.

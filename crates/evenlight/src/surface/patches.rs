@@ -12,8 +12,8 @@ use crate::patch::kernel::{square, sum, sum_of_rows, tensor_jet};
 use crate::patch::{Answer, Jet, Parts, Patch, SurfacePoint};
 
 impl Layout {
-    /// Where the patches of surfaces lie that are not closed: all regular patches and the rings 1 to
-    /// `rings` of every extraordinary point, quad by quad.
+    /// Where the patches of surfaces lie that are not closed: all regular patches and the first
+    /// `rings` rings of every extraordinary point, quad by quad.
     pub fn patch_places(&self, rings: usize) -> impl Iterator<Item = PatchPlace> + '_ {
         self.places(rings, None)
     }
@@ -89,7 +89,7 @@ impl Collector<'_> {
         let count = self.caps.map_or(self.rings, |caps| self.rings.min(caps.options.rings));
         for ring in 0..count {
             for which in 0..rules.patches_per_sector() {
-                out.push(place(Role::Ring(ring + 1), ring, which, rules.patch_domain(which)));
+                out.push(place(Role::Ring(ring), ring, which, rules.patch_domain(which)));
             }
         }
         if let Some(caps) = self.caps.filter(|caps| caps.options.rings <= self.rings) {
@@ -102,7 +102,7 @@ impl Collector<'_> {
 }
 
 impl<const N: usize> Surface<N> {
-    /// All regular patches and the rings 1 to `rings` of every extraordinary point, quad by
+    /// All regular patches and the first `rings` rings of every extraordinary point, quad by
     /// quad; of a closed surface no more rings than it has, and if it is all of them the caps.
     pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch<N>> + '_ {
         self.patch_places(rings).map(|place| {

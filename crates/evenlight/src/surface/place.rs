@@ -24,18 +24,19 @@ use crate::point::scale;
 pub enum Role {
     /// A bi-3 patch whose four corners are regular.
     Regular,
-    /// A patch of ring `k` around an extraordinary point, counted from 1.
+    /// A patch of ring `k` around an extraordinary point, counted from 0 as in
+    /// [`Rings`](crate::rings::Rings); files count from 1.
     Ring(usize),
     /// A patch of the cap behind the rings around an extraordinary point.
     Cap,
 }
 
-/// The word used in files: `regular`, `ring-1`, `ring-2` and so on, `cap`.
+/// The word used in files, which count rings from 1: `regular`, `ring-1`, `ring-2` and so on, `cap`.
 impl fmt::Display for Role {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Regular => f.write_str("regular"),
-            Self::Ring(k) => write!(f, "ring-{k}"),
+            Self::Ring(k) => write!(f, "ring-{}", k + 1),
             Self::Cap => f.write_str("cap"),
         }
     }

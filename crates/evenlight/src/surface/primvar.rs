@@ -18,7 +18,7 @@ use std::sync::{Arc, OnceLock};
 use super::{CreaseRings, Layout, QuadId, Surface, SurfaceOptions};
 use crate::cap::CapOptions;
 use crate::mesh::channel::ChannelNet;
-use crate::mesh::{FaceVaryingRule, Interpolation, Primvar, Topology};
+use crate::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use crate::patch::Jet;
 
 /// A primvar that can be evaluated.
@@ -69,7 +69,8 @@ impl Channel {
         // The primvar has a boundary rule of its own, and at its seams what others make of it.
         let creases = CreaseRings::CatmullClark;
         let options = SurfaceOptions { boundary: None, creases, ..options };
-        let topology = Arc::new(Topology::build(net.faces, net.values.len()).ok()?);
+        let topology = layout.topology().with_vertices(net.faces, net.values.len()).ok()?;
+        let topology = Arc::new(topology);
         let tags = Arc::new(net.tags);
         let own = Layout::of_net(topology, tags, net.beyond, options, layout.cache()).ok()?;
         Some((Arc::new(own), net.values))
@@ -83,8 +84,9 @@ fn surface<const N: usize>(
     primvar: &Primvar,
     values: &[u32],
 ) -> Option<Surface<N>> {
-    let value = |&number: &u32| padded(primvar, number as usize);
-    let mut surface = Surface::over(layout, values.iter().map(value).collect()).ok()?;
+    let (all, _) = primvar.values.as_chunks::<N>();
+    let values = values.iter().map(|&number| all[number as usize]).collect();
+    let mut surface = Surface::over(layout, values).ok()?;
     surface.set_caps(caps).ok()?;
     Some(surface)
 }
@@ -96,8 +98,15 @@ fn padded<const N: usize>(primvar: &Primvar, value: usize) -> [f64; N] {
 }
 
 /// The first N numbers of a jet of M.
+#[inline]
 fn resized<const M: usize, const N: usize>(jet: &Jet<M>) -> Jet<N> {
-    let row = |x: &[f64; M]| std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0));
+    let row = |x: &[f64; M]| {
+        let mut row = [0.0; N];
+        for k in 0..N.min(M) {
+            row[k] = x[k];
+        }
+        row
+    };
     let Jet { p, du, dv, duu, duv, dvv } = jet;
     Jet { p: row(p), du: row(du), dv: row(dv), duu: row(duu), duv: row(duv), dvv: row(dvv) }
 }
@@ -189,7 +198,7 @@ impl Surface {
         let all = |surface: &dyn GridOfValues| surface.values(quad, us, vs);
         match self.channel(primvar)? {
             Channel::Linear => {
-                let places = vs.iter().flat_map(|&v| us.iter().map(move |&u| [u, v]));
+                let places = us.iter().flat_map(|&u| vs.iter().map(move |&v| [u, v]));
                 places.map(|at| Some(self.eval_linear(primvar, quad, at)?.p)).collect()
             }
             Channel::Smooth1(surface) => Some(all(surface)),
@@ -243,7 +252,8 @@ trait GridOfValues {
 impl<const N: usize> GridOfValues for Surface<N> {
     fn values(&self, quad: QuadId, us: &[f64], vs: &[f64]) -> Vec<[f64; 4]> {
         let mut found = vec![[f64::NAN; N]; us.len() * vs.len()];
-        self.eval_grid(quad, us, vs, &mut found);
+        let all = self.eval_grid(quad, us, vs, &mut found);
+        debug_assert_eq!(all, Ok(()), "there is an answer for every pair");
         let in_four = |x: &[f64; N]| std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0));
         found.iter().map(in_four).collect()
     }

@@ -83,7 +83,8 @@ fn add_samples_of_quad(
         (first[k]..=last[k]).map(|node| node as f64 / segments).collect()
     };
     let mut grid = vec![Sample::NAN; columns * rows];
-    surface.eval_grid(quad, &lines(0), &lines(1), &mut grid);
-    let place = |[i, j]: [usize; 2]| (i - first[0]) + (j - first[1]) * columns;
+    let all = surface.eval_grid(quad, &lines(0), &lines(1), &mut grid);
+    debug_assert_eq!(all, Ok(()), "there is an answer for every pair");
+    let place = |[i, j]: [usize; 2]| (i - first[0]) * rows + (j - first[1]);
     samples.extend(run.iter().map(|origin| grid[place(node(origin))]));
 }
