@@ -151,7 +151,8 @@ fn a_ring_has_no_other_splines() {
                 let (one, two) = (&end[o], &start[o]);
                 // Patches are sigma and 1 - sigma wide.
                 let [low, high] = [sigma, 1.0 - sigma].map(|width| width.powi(-(o as i32)));
-                // Square 1 below 0, square 2 left of 0, square 2 before square 1 of the next sector.
+                // Square 1 below 0, square 2 left of 0, square 2 before square 1 of the next
+                // sector.
                 condition(&[
                     (&|j| number(s, 1, k, j), one, low),
                     (&|j| number(s, 0, k, j), two, -high),

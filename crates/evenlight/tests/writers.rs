@@ -231,11 +231,7 @@ fn bv_gives_back_every_patch_to_the_last_bit() {
     let groups = bv::read(&text).unwrap();
     let mut num_patches = 0;
     for group in &groups {
-        let is_of_group = |p: &PlacedPatch| match p.place.role {
-            Role::Regular => group.name == "regular",
-            Role::Ring(k) => group.name == format!("ring-{}", k + 1),
-            Role::Cap => group.name == "cap",
-        };
+        let is_of_group = |p: &PlacedPatch| group.name == p.place.role.to_string();
         let patches: Vec<Patch> = surface.patches(4).filter(is_of_group).map(|p| p.patch).collect();
         assert_eq!(group.patches, patches, "{}", group.name);
         num_patches += patches.len();

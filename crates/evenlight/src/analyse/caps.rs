@@ -67,8 +67,8 @@ impl CapReport {
     }
 }
 
-/// Measures the caps of a closed surface, one report for each point with a cap; none if the surface is
-/// not closed.
+/// Measures the caps of a closed surface, one report for each point with a cap; none if the surface
+/// is not closed.
 pub fn cap_report(surface: &Surface) -> Vec<CapReport> {
     let Some(options) = surface.cap_options() else { return Vec::new() };
     let mut places: Vec<Vec<PatchPlace>> = vec![Vec::new(); surface.extraordinary_points().len()];

@@ -19,18 +19,18 @@ use crate::sparse::Stencils;
 ///   18n       18n        18n             18n       |  17n + n* + 6: a guide, subdivided
 /// ```
 ///
-/// (bi-5; 24n and 36n with bi-6 rings). Every function is C2 everywhere but at the centre: there the
-/// functions of rings vanish near by, and the guides are as smooth as the scheme. V_m lies in
+/// (bi-5; 24n and 36n with bi-6 rings). Every function is C2 everywhere but at the centre: there
+/// the functions of rings vanish near by, and the guides are as smooth as the scheme. V_m lies in
 /// V_(m+1), by the sparse matrix [`RefinableSpace::refinement`].
 ///
-/// **Functions**, by number: those of the border (level 0), of ring 0 (level 1, then the ring's own),
-/// of ring 1, ..., and the guides, which are the eigenfunctions in their order, scaled to be of the
-/// same size on ring m. Functions of rings are products of B-splines with triple knots (fourfold
-/// in bi-6): they are not negative, and their sum and function [`RefinableSpace::constant`] are the
-/// same as 1.
+/// **Functions**, by number: those of the border (level 0), of ring 0 (level 1, then the ring's
+/// own), of ring 1, ..., and the guides, which are the eigenfunctions in their order, scaled to be
+/// of the same size on ring m. Functions of rings are products of B-splines with triple knots
+/// (fourfold in bi-6): they are not negative, and their sum and function
+/// [`RefinableSpace::constant`] are the same as 1.
 ///
-/// A function of level l lives on rings l-1 and l, one of the ring's own on that ring only. Those of
-/// level 0 live on ring 0 and, in the same way, beyond the border.
+/// A function of level l lives on rings l-1 and l, one of the ring's own on that ring only. Those
+/// of level 0 live on ring 0 and, in the same way, beyond the border.
 ///
 /// ```
 /// use evenlight::SchemeKind;
@@ -105,8 +105,8 @@ pub struct Support {
     pub sectors: Vec<usize>,
 }
 
-/// The functions that live on one patch of one ring, with their Bernstein-Bezier coefficients there:
-/// the element of an analysis, its matrix the Bezier extraction.
+/// The functions that live on one patch of one ring, with their Bernstein-Bezier coefficients
+/// there: the element of an analysis, its matrix the Bezier extraction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
     /// The ring.
@@ -349,8 +349,8 @@ impl RefinableSpace {
         sum
     }
 
-    /// The sum of all functions times `values` at (a,b) of a sector, with its derivatives by a and b.
-    /// At the centre (0,0) it has only its value; the derivatives are NaN.
+    /// The sum of all functions times `values` at (a,b) of a sector, with its derivatives by a and
+    /// b. At the centre (0,0) it has only its value; the derivatives are NaN.
     ///
     /// Many points on one patch are cheaper with [`RefinableSpace::element`].
     ///
@@ -430,7 +430,8 @@ impl RefinableSpace {
         matrix.expect("every column is a function")
     }
 
-    /// The values of the functions of a ring in eigenfunction `k` on ring 0, in the order of numbers.
+    /// The values of the functions of a ring in eigenfunction `k` on ring 0, in the order of
+    /// numbers.
     fn functions_of_ring(&self, k: usize) -> Vec<f64> {
         let (layout, order) = (self.common.layout, self.degree() + 1);
         let rows = layout.functions_from_ring();
@@ -493,8 +494,8 @@ impl RefinableSpace {
     /// the functions: applied to the nodes' positions, it gives the surface of the scheme.
     ///
     /// Column k is the scheme's own function of node k. Outside of the border that function is the
-    /// bi-3 B-spline of the node: together with the B-splines of all other nodes of a cage these are
-    /// a basis on the whole surface, which the functions of borders, rings and guides refine.
+    /// bi-3 B-spline of the node: together with the B-splines of all other nodes of a cage these
+    /// are a basis on the whole surface, which the functions of borders, rings and guides refine.
     pub fn cnet_matrix(&self) -> Stencils {
         let coarse = Self { common: Arc::clone(&self.common), rings: 0 };
         let nodes = CNET_NODES * self.valence() + 1;

@@ -18,8 +18,8 @@ mod tags;
 mod topology;
 
 pub(crate) use check::check_values;
-pub use check::{Cage, PrimvarFault, ValuesError};
-pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
+pub use check::{Cage, ValuesError};
+pub use fault::{CheckError, LibraryNumbers, MeshError, Names, PrimvarFault, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
 pub(crate) use nets::{RegularNet, cnet_vertices, fan_vertices};
 pub use tags::{

@@ -9,7 +9,8 @@ use crate::point::{add_scaled, scale};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RegularNet {
     pub(crate) level: u8,
-    /// Bit k is set if edge k of the face (0 at v = 0, 1 at u = 1, 2 at v = 1, 3 at u = 0) is sharp.
+    /// Bit k is set if edge k of the face (0 at v = 0, 1 at u = 1, 2 at v = 1, 3 at u = 0) is
+    /// sharp.
     pub(crate) sharp_sides: u8,
     pub(crate) vertices: [VertexId; 16],
 }

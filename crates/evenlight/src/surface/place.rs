@@ -11,6 +11,8 @@
 //!   e -- a       b -- e       + -- b       a -- +       (u to the right, v upwards)
 //! ```
 
+use std::fmt;
+
 use super::QuadId;
 use crate::mesh::isolation::CORNERS;
 use crate::patch::{Jet, Patch};
@@ -18,6 +20,7 @@ use crate::point::scale;
 
 /// What a patch is part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Role {
     /// A bi-3 patch whose four corners are regular.
     Regular,
@@ -26,6 +29,17 @@ pub enum Role {
     Ring(usize),
     /// A patch of the cap behind the rings around an extraordinary point.
     Cap,
+}
+
+/// The word used in files, which count rings from 1: `regular`, `ring-1`, `ring-2` and so on, `cap`.
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Regular => f.write_str("regular"),
+            Self::Ring(k) => write!(f, "ring-{}", k + 1),
+            Self::Cap => f.write_str("cap"),
+        }
+    }
 }
 
 /// Where a polynomial patch lies.
