@@ -115,7 +115,11 @@ fn all_is_c2_but_for_the_crease_whose_curve_stays() {
             "{f} {g}: {:e}",
             found.all.defect.tangent_plane
         );
-        assert!(found.creases.position < 1e-14, "{f} {g}: {:e}", found.creases.position);
+        assert!(
+            found.creases.defect.position < 1e-14,
+            "{f} {g}: {:e}",
+            found.creases.defect.position
+        );
         for point in fair_points(&fair) {
             let (rings, before) = (fair.rings(point).unwrap(), default.rings(point).unwrap());
             assert!(norm(sub(rings.center(), before.center())) < 1e-15);
@@ -294,7 +298,11 @@ fn whole_cages_join() {
         assert!(!fair_points(&surface).is_empty(), "{name}");
         let found = continuity(&surface, 3, 2).unwrap();
         assert!(found.all.parametric < 1e-10, "{name}: {:e}", found.all.parametric);
-        assert!(found.creases.position < 1e-13, "{name}: {:e}", found.creases.position);
+        assert!(
+            found.creases.defect.position < 1e-13,
+            "{name}: {:e}",
+            found.creases.defect.position
+        );
         for point in fair_points(&surface) {
             assert!(surface.rings(point).unwrap().normal()[0].is_finite(), "{name}");
         }

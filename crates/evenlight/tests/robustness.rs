@@ -163,7 +163,7 @@ fn check(cage: &Arc<Cage>, seed: u64, schemes: &[SchemeKind]) {
         let found = continuity(&surface, 2, 1).unwrap();
         let jumps = found.all;
         assert!(jumps.parametric < 1e-9, "seed {seed}, {}: {jumps:?}", scheme.name());
-        assert!(found.creases.position < 1e-12, "seed {seed}: {:?}", found.creases);
+        assert!(found.creases.defect.position < 1e-12, "seed {seed}: {:?}", found.creases);
         is_watertight(&surface, seed);
         if scheme == SchemeKind::Qas4 {
             surface.set_caps(Some(CapOptions { rings: 1, kind: CapKind::Bi4 })).expect("they fit");
