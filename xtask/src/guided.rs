@@ -90,7 +90,7 @@ fn range_lengths(surface: &Surface) -> [f64; SHOWN_RINGS.len()] {
     let mut ranges = SHOWN_RINGS.map(|_| Range::EMPTY);
     for place in surface.patch_places(SHOWN_RINGS[SHOWN_RINGS.len() - 1]) {
         let (Some(0), Role::Ring(ring)) = (place.point, place.role) else { continue };
-        if let Some(k) = SHOWN_RINGS.iter().position(|&shown| shown == ring) {
+        if let Some(k) = SHOWN_RINGS.iter().position(|&shown| shown == ring + 1) {
             ranges[k] = ranges[k].union(curvature_over(surface, &place).mean);
         }
     }

@@ -18,12 +18,13 @@ use evenlight::surface::ExtraordinaryPoint;
 use evenlight::{SchemeKind, Surface};
 
 use crate::cap::{self, CapArg};
+use crate::edits::QArg;
 use crate::error::Failure;
 use crate::input::{self, CageArg};
 use crate::options::{BoundaryArg, RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
-use crate::q::QArg;
+use crate::surface;
 use crate::table::{Table, point_name, short};
 use record::Document;
 
@@ -102,14 +103,14 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     for &scheme in &args.schemes {
         let options = args.boundary.applied_to(args.rules.options_among(&args.schemes, scheme));
         progress.stage(format!("Analysing {}", scheme.name()));
-        let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
+        let mut surface = surface::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;
         let mut analysis = Analysis::of(surface, args.rings.into())?;
         analysis.close(cap, args.rings.into())?;
         analyses.push(analysis);
         progress.step();
     }
-    input::report_omitted(&analyses[0].surface, &args.cage.source)?;
+    surface::report_omitted(&analyses[0].surface, &args.cage.source)?;
     if args.json {
         args.output.write_json(&Document::new(&analyses, args.rings.into()))
     } else {

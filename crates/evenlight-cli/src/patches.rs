@@ -10,9 +10,10 @@ use serde::{Serialize, Serializer};
 
 use crate::cap::CapArg;
 use crate::error::Failure;
-use crate::options::{SurfaceArgs, rules_name};
+use crate::options::rules_name;
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::SurfaceArgs;
 
 /// Arguments of `evenlight patches`.
 #[derive(Args, Debug)]
@@ -134,7 +135,7 @@ impl Record {
         let is_quad = surface.topology().faces().corners(face).len() == 4;
         let center = place.point.map(|i| &surface.extraordinary_points()[i]);
         Self {
-            role: role_name(place.role),
+            role: place.role.to_string(),
             face: face.0,
             corner: (!is_quad).then_some(corner),
             vertex: center.and_then(|p| p.vertex()).map(|v| v.0),
@@ -148,17 +149,9 @@ impl Record {
     }
 }
 
-fn role_name(role: Role) -> String {
-    match role {
-        Role::Regular => "regular".to_owned(),
-        Role::Ring(k) => format!("ring-{k}"),
-        Role::Cap => "cap".to_owned(),
-    }
-}
-
 fn ring(role: Role) -> Option<usize> {
     match role {
-        Role::Regular | Role::Cap => None,
-        Role::Ring(k) => Some(k),
+        Role::Ring(k) => Some(k + 1),
+        _ => None,
     }
 }

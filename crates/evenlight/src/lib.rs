@@ -11,11 +11,11 @@
 //!
 //! ```
 //! use std::sync::Arc;
-//! use evenlight::io::obj;
+//! use evenlight::io::load::Format;
 //!
-//! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
-//!             f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-//! let (cage, notices) = obj::read_cage(text.as_bytes())?;
+//! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\n\
+//!             v -1 1 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+//! let (cage, notices) = Format::Obj.read_cage(text.as_bytes())?;
 //! assert!(notices.is_empty());
 //! assert_eq!(cage.interior_valences(), [(3, 8)].into());
 //!
@@ -63,6 +63,7 @@
 //! | [`cap`] | finitely many patches instead of all further rings |
 //! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
+//! | [`stencil`] | the surface as weights of the cage's vertices |
 //! | [`complex`] | its patches, and the edges and vertices where they meet |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
@@ -71,8 +72,9 @@
 //!
 //! # What is not promised
 //!
-//! At boundaries, infinitely sharp creases and corners every scheme is Catmull-Clark. A surface may intersect itself if its cage does.
-//! Coordinates near the ends of the range of `f64` may overflow in derivatives.
+//! At boundaries, infinitely sharp creases and corners every scheme is Catmull-Clark. A surface may
+//! intersect itself if its cage does. Coordinates near the ends of the range of `f64` may overflow
+//! in derivatives.
 
 pub mod analyse;
 mod angle;
@@ -82,6 +84,7 @@ pub mod complex;
 mod dense;
 pub mod io;
 pub mod mesh;
+mod names;
 pub mod net;
 pub mod patch;
 #[cfg(feature = "picture")]
@@ -90,11 +93,14 @@ pub mod point;
 mod quadrature;
 pub mod rings;
 pub mod scheme;
+mod sparse;
+pub mod stencil;
 pub mod surface;
 pub mod task;
 pub mod tessellate;
 
 pub use mesh::{Cage, FaceId, Mesh, VertexId};
+pub use names::UnknownName;
 pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
 pub use scheme::{Contraction, RuleSet, SchemeKind, Variant};

@@ -99,7 +99,8 @@ fn fair_points(surface: &Surface) -> Vec<usize> {
 
 const SIDES: [(u32, u32); 6] = [(1, 3), (3, 4), (2, 5), (6, 2), (1, 8), (12, 3)];
 
-/// All patches join C2 but across the crease, where they meet; on it the curve is that of the default.
+/// All patches join C2 but across the crease, where they meet; on it the curve is that of the
+/// default.
 #[test]
 fn all_is_c2_but_for_the_crease_whose_curve_stays() {
     for (f, g) in SIDES {
@@ -324,8 +325,8 @@ fn every_scheme_has_them() {
     assert!(SchemeKind::ALL.into_iter().all(|scheme| rings(scheme) == first));
 }
 
-/// Caps close the hole behind any number of rings: with second derivatives to the last ring, tangent
-/// planes inside, and the crease as it was.
+/// Caps close the hole behind any number of rings: with second derivatives to the last ring,
+/// tangent planes inside, and the crease as it was.
 #[test]
 fn caps_close_them() {
     for (f, g) in SIDES {

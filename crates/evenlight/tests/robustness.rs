@@ -1,6 +1,6 @@
-//! Random cages, closed and flat, with n-gons, boundaries, creases, corners and holes: whatever passes
-//! the checks gives a surface in every scheme, and the surface is C2 where it should be, without cracks,
-//! flat if the cage is, and its triangles are watertight.
+//! Random cages, closed and flat, with n-gons, boundaries, creases, corners and holes: whatever
+//! passes the checks gives a surface in every scheme, and the surface is C2 where it should be,
+//! without cracks, flat if the cage is, and its triangles are watertight.
 
 mod common;
 
@@ -177,7 +177,8 @@ fn check(cage: &Arc<Cage>, seed: u64, schemes: &[SchemeKind]) {
     }
 }
 
-/// The triangles join along all their edges but where the surface ends, and are flat over flat cages.
+/// The triangles join along all their edges but where the surface ends, and are flat over flat
+/// cages.
 fn is_watertight(surface: &Surface, seed: u64) {
     let mesh: TriangleMesh = tessellate(surface, 2).expect("few triangles");
     assert!(mesh.positions.iter().flatten().all(|x| x.is_finite()));

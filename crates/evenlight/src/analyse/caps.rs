@@ -67,8 +67,8 @@ impl CapReport {
     }
 }
 
-/// Measures the caps of a closed surface, one report for each point with a cap; none if the surface is
-/// not closed.
+/// Measures the caps of a closed surface, one report for each point with a cap; none if the surface
+/// is not closed.
 pub fn cap_report(surface: &Surface) -> Vec<CapReport> {
     let Some(options) = surface.cap_options() else { return Vec::new() };
     let mut places: Vec<Vec<PatchPlace>> = vec![Vec::new(); surface.extraordinary_points().len()];
@@ -93,7 +93,7 @@ fn report_of(surface: &Surface, point: usize, cap: &Cap, places: &[PatchPlace]) 
         }
         found
     };
-    let last_two = |role: Role| matches!(role, Role::Ring(k) if k + 2 > cap.rings());
+    let last_two = |role: Role| matches!(role, Role::Ring(k) if k + 2 >= cap.rings());
     let scale = around.scale();
     let relative = |defect: Defect| Defect {
         curvature: if scale == 0.0 { 0.0 } else { defect.curvature / scale },

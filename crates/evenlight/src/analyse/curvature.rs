@@ -103,7 +103,7 @@ pub fn curvature_report(surface: &Surface, rings: usize) -> Result<CurvatureRepo
         if let (Some(point), Role::Ring(ring)) = (place.point, place.role) {
             let report = &mut points[point];
             let found = curvature_over(surface, &place);
-            report.rings[ring - 1] = union(report.rings[ring - 1], found);
+            report.rings[ring] = union(report.rings[ring], found);
             report.total = union(report.total, found);
         }
     }

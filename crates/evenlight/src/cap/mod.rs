@@ -36,6 +36,10 @@ mod rules;
 mod sector;
 mod spline;
 
+use std::fmt;
+use std::str::FromStr;
+
+use crate::names::UnknownName;
 use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::rings::{Rings, ValenceRules};
@@ -48,6 +52,7 @@ use spline::Space;
 
 /// The degree of a cap's patches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum CapKind {
     /// What suits the scheme best ([`CapKind::of_scheme`]).
     #[default]
@@ -73,6 +78,7 @@ pub struct CapOptions {
 
 /// Why there is no cap.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CapError {
     /// The rings are of a higher degree than the cap.
     #[error(
@@ -115,6 +121,23 @@ pub enum CapError {
 /// The highest valence with caps of the kind asked for: beyond it sectors are slivers, the rules would
 /// take seconds, and caps are plain.
 pub const MAX_VALENCE: usize = 64;
+
+/// The name in commands and files.
+impl fmt::Display for CapKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for CapKind {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        const NAMES: [&str; 5] = ["auto", "bi3", "bi4", "bi5", "bi6"];
+        let found = [Self::Auto].into_iter().chain(Self::ALL).find(|kind| kind.name() == text);
+        found.ok_or_else(|| UnknownName::new("kind of cap", text, &NAMES))
+    }
+}
 
 impl CapKind {
     /// All kinds but `Auto`.

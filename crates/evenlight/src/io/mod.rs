@@ -5,6 +5,7 @@ mod digits;
 mod excerpt;
 pub mod glb;
 mod kind;
+mod lines;
 pub mod load;
 pub mod obj;
 pub mod obj_out;

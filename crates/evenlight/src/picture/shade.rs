@@ -134,7 +134,7 @@ pub(super) fn curvature(style: Style, seen: &Seen) -> Option<f64> {
 fn role_color(role: Role) -> [u8; 3] {
     match role {
         Role::Regular => REGULAR,
-        Role::Ring(k) if k % 2 == 1 => ODD_RING,
+        Role::Ring(k) if k % 2 == 0 => ODD_RING,
         Role::Ring(_) => EVEN_RING,
         Role::Cap => CAP,
     }

@@ -13,8 +13,8 @@ use crate::patch::{Answer, Jet, Parts, Patch, SurfacePoint};
 use crate::rings::{in_ring, scaled_up};
 
 impl Layout {
-    /// Where the patches of surfaces lie that are not closed: all regular patches and the rings 1 to
-    /// `rings` of every extraordinary point, quad by quad.
+    /// Where the patches of surfaces lie that are not closed: all regular patches and the first
+    /// `rings` rings of every extraordinary point, quad by quad.
     pub fn patch_places(&self, rings: usize) -> impl Iterator<Item = PatchPlace> + '_ {
         self.places(rings, None)
     }
@@ -94,7 +94,7 @@ impl Layout {
             return None;
         }
         let (ring, at) = in_ring(at, sigma);
-        Some((Role::Ring(ring + 1), ring, rules.patch_at(at)))
+        Some((Role::Ring(ring), ring, rules.patch_at(at)))
     }
 
     /// The place of a patch around a point.
@@ -167,7 +167,7 @@ impl Collector<'_> {
         let count = self.caps.map_or(self.rings, |caps| self.rings.min(caps.options.rings));
         for ring in 0..count {
             for which in 0..rules.patches_per_sector() {
-                out.push(place(Role::Ring(ring + 1), ring, which));
+                out.push(place(Role::Ring(ring), ring, which));
             }
         }
         if let Some(caps) = self.caps.filter(|caps| caps.options.rings <= self.rings) {
@@ -180,7 +180,7 @@ impl Collector<'_> {
 }
 
 impl<const N: usize> Surface<N> {
-    /// All regular patches and the rings 1 to `rings` of every extraordinary point, quad by
+    /// All regular patches and the first `rings` rings of every extraordinary point, quad by
     /// quad; of a closed surface no more rings than it has, and if it is all of them the caps.
     pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch<N>> + '_ {
         self.patch_places(rings).map(|place| {

@@ -11,6 +11,8 @@
 //!   e -- a       b -- e       + -- b       a -- +       (u to the right, v upwards)
 //! ```
 
+use std::fmt;
+
 use super::QuadId;
 use crate::mesh::isolation::CORNERS;
 use crate::patch::{Jet, Patch};
@@ -18,13 +20,26 @@ use crate::point::scale;
 
 /// What a patch is part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Role {
     /// A bi-3 patch whose four corners are regular.
     Regular,
-    /// A patch of ring `k` around an extraordinary point, counted from 1.
+    /// A patch of ring `k` around an extraordinary point, counted from 0 as in
+    /// [`Rings`](crate::rings::Rings); files count from 1.
     Ring(usize),
     /// A patch of the cap behind the rings around an extraordinary point.
     Cap,
+}
+
+/// The word used in files, which count rings from 1: `regular`, `ring-1`, `ring-2` and so on, `cap`.
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Regular => f.write_str("regular"),
+            Self::Ring(k) => write!(f, "ring-{}", k + 1),
+            Self::Cap => f.write_str("cap"),
+        }
+    }
 }
 
 /// Where a polynomial patch lies.
@@ -104,7 +119,7 @@ impl Square {
 }
 
 /// The corner of the quarter of a square in which a point lies.
-pub(super) fn quadrant([u, v]: [f64; 2]) -> usize {
+pub(crate) fn quadrant([u, v]: [f64; 2]) -> usize {
     match (u > 0.5, v > 0.5) {
         (false, false) => 0,
         (true, false) => 1,
@@ -115,7 +130,7 @@ pub(super) fn quadrant([u, v]: [f64; 2]) -> usize {
 
 /// The sector parameters (a,b) of a point (u,v) of a square, the extraordinary point being at
 /// the square's corner `corner`: a runs to the next corner, b to the one before.
-pub(super) fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
     match corner {
         0 => [u, v],
         1 => [v, 1.0 - u],

@@ -28,8 +28,8 @@
 //! | watertight, for measuring, printing and simulation | `positions` | `triangles` |
 //! | shaded, hard at creases | of every side, `positions[vertex_of_side(side)]` and `normals` | [`sides()`](TriangleMesh::sides) |
 //!
-//! [`TriangleMesh::split`] makes vertices for graphics, also at the seams of channels such as texture
-//! coordinates ([`TriangleMesh::corner_values`], [`TriangleMesh::corner_channels`]).
+//! [`TriangleMesh::split`] makes vertices for graphics, also at the seams of channels such as
+//! texture coordinates ([`TriangleMesh::corner_values`], [`TriangleMesh::corner_channels`]).
 //!
 //! What is not: the triangles may intersect where the surface does. Faces without a surface
 //! are left out, and where two faces with a surface share nothing but a vertex, so do their
@@ -56,10 +56,10 @@ use sides::Sides;
 
 /// Triangles on the limit surface, with what the surface says at their vertices.
 ///
-/// There is a position for each vertex, and a normal, K, H and an origin for each *side* of a vertex.
-/// Side `v` is the first side of vertex `v`; the sides from `positions.len()` on are those that
-/// vertices have in addition where the surface is folded along an infinitely sharp edge. Without
-/// such edges sides are vertices.
+/// There is a position for each vertex, and a normal, K, H and an origin for each *side* of a
+/// vertex. Side `v` is the first side of vertex `v`; the sides from `positions.len()` on are those
+/// that vertices have in addition where the surface is folded along an infinitely sharp edge.
+/// Without such edges sides are vertices.
 ///
 /// A vertex takes 88 bytes, a triangle 12; where there are folds a further side takes 68 and a
 /// triangle 24.
@@ -121,6 +121,7 @@ pub struct ParametricTriangle {
 
 /// Why no triangle mesh could be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TessellateError {
     /// The rate is zero.
     #[error("the rate must be 1 or more")]
@@ -210,9 +211,9 @@ fn eval(surface: &Surface, quad: QuadId, [u, v]: [f64; 2]) -> SurfacePoint {
     surface.eval(quad, u, v).expect("quads of omitted faces have no grid")
 }
 
-/// Whether the surface has two infinitely sharp edges or boundaries in one line at a corner of a quad:
-/// the edges of a plane face, say, one of whose vertices lies between two others. Its normal is noise
-/// there, whatever the digits of the cage.
+/// Whether the surface has two infinitely sharp edges or boundaries in one line at a corner of a
+/// quad: the edges of a plane face, say, one of whose vertices lies between two others. Its normal
+/// is noise there, whatever the digits of the cage.
 fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> bool {
     /// Sines of angles that files with seven digits leave of a straight one, and more.
     const STRAIGHT: f64 = 1e-4;
@@ -251,7 +252,8 @@ impl TriangleMesh {
     }
 
     /// Gives extraordinary points and other corners of quads the curvature and the normal that they
-    /// lack: the mean over the middles of the cells around, which do not depend on how cells are cut.
+    /// lack: the mean over the middles of the cells around, which do not depend on how cells are
+    /// cut.
     fn fill_what_is_missing(&mut self, surface: &Surface, nodes: &Nodes, sides: &Sides) {
         let mut around: BTreeMap<u32, Vec<SurfacePoint>> = BTreeMap::new();
         for grid in nodes.grids() {
@@ -312,17 +314,17 @@ impl TriangleMesh {
         !self.side_vertices.is_empty()
     }
 
-    /// The corners of the triangles, as numbers of sides: with `sides()` in the place of `triangles`
-    /// every triangle has the normals and curvatures of its own side of folds.
+    /// The corners of the triangles, as numbers of sides: with `sides()` in the place of
+    /// `triangles` every triangle has the normals and curvatures of its own side of folds.
     ///
     /// ```
-    /// use evenlight::io::obj;
+    /// use evenlight::io::load::Format;
     /// use evenlight::tessellate::tessellate;
     /// use evenlight::{Surface, SurfaceOptions};
     ///
     /// let roof = "v 0 0 0\nv 1 0 1\nv 2 0 0\nv 0 1 0\nv 1 1 1\nv 2 1 0\n\
     ///             f 1 2 5 4\nf 2 3 6 5\nt crease 2/1/0 1 4 10\n";
-    /// let (cage, _) = obj::read_cage(roof.as_bytes())?;
+    /// let (cage, _) = Format::Obj.read_cage(roof.as_bytes())?;
     /// let mesh = tessellate(&Surface::build(cage, SurfaceOptions::default())?, 4)?;
     /// // Five vertices on the ridge have two sides.
     /// assert_eq!((mesh.positions.len(), mesh.normals.len()), (5 * 9, 5 * 10));

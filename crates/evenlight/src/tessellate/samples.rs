@@ -92,7 +92,8 @@ fn add_samples_of_quad(surface: &Surface, run: &[NodePlace], samples: &mut Vec<S
         (first[k]..=last[k]).map(|node| run[0].parameter(node)).collect()
     };
     let mut grid = vec![Sample::NAN; columns * rows];
-    surface.eval_grid(quad, &lines(0), &lines(1), &mut grid);
-    let at = |[i, j]: [u32; 2]| (i - first[0]) as usize + (j - first[1]) as usize * columns;
+    let all = surface.eval_grid(quad, &lines(0), &lines(1), &mut grid);
+    debug_assert_eq!(all, Ok(()), "there is an answer for every pair");
+    let at = |[i, j]: [u32; 2]| (i - first[0]) as usize * rows + (j - first[1]) as usize;
     samples.extend(run.iter().map(|place| grid[at(place.node)]));
 }
