@@ -10,6 +10,7 @@
 //! faces is what the file calls them: [`Naming`].
 
 use std::fmt;
+use std::path::Path;
 
 use super::kind::Kind;
 use super::obj::{self, Skipped, UnknownTag};
@@ -58,6 +59,11 @@ impl Format {
             "usda" | "usd" | "usdc" | "usdz" => Some(Self::Usda),
             _ => None,
         }
+    }
+
+    /// The kind of file that the ending of its name tells, if it does.
+    pub fn from_path(path: impl AsRef<Path>) -> Option<Self> {
+        Self::from_extension(path.as_ref().extension()?.to_str()?)
     }
 
     /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.
@@ -110,13 +116,17 @@ impl Loaded {
     /// As [`Cage::new`], in the numbers of the file.
     pub fn check(self) -> Result<(Cage, Vec<Notice>), LoadError> {
         let Self { mesh, naming, mut notices } = self;
+        let tags = mesh.tags.clone();
         match Cage::new(mesh) {
             Ok(cage) => {
                 let of_mesh = cage.warnings().iter().map(|w| Notice::of_warning(w, &naming));
                 notices.extend(of_mesh);
                 Ok((cage, notices))
             }
-            Err(error) => Err(LoadError::Check(Box::new(Refusal { error, naming, notices }))),
+            Err(error) => {
+                let lines = error.errors.iter().map(|fault| naming.line(fault, &tags)).collect();
+                Err(LoadError::Check(Box::new(Refusal { error, naming, lines, notices })))
+            }
         }
     }
 }
@@ -177,11 +187,13 @@ pub enum Notice {
     UnknownTag(UnknownTag),
     /// The lines of groups, materials, normals and the like.
     Skipped(Skipped),
-    /// The vertices in no face.
-    UnusedVertices {
-        /// How many there are.
-        count: usize,
-        /// The sentence that names the first of them.
+    /// What the check of the mesh accepted, as vertices in no face.
+    OfMesh {
+        /// What it is.
+        warning: Warning,
+        /// The line of the first vertex that it is about, if it is known.
+        line: Option<u32>,
+        /// The sentence, in the numbers of the file.
         message: String,
     },
     /// Anything else, in a sentence.
@@ -189,12 +201,9 @@ pub enum Notice {
 }
 
 impl Notice {
-    fn of_warning(warning: &Warning, names: &dyn Names) -> Self {
-        match warning {
-            Warning::UnusedVertices(vertices) => {
-                Self::UnusedVertices { count: vertices.len(), message: warning.describe(names) }
-            }
-        }
+    fn of_warning(warning: &Warning, naming: &Naming) -> Self {
+        let line = naming.line_of(&warning.marks());
+        Self::OfMesh { warning: warning.clone(), line, message: warning.describe(naming) }
     }
 }
 
@@ -203,7 +212,7 @@ impl fmt::Display for Notice {
         match self {
             Self::UnknownTag(tag) => tag.fmt(f),
             Self::Skipped(skipped) => skipped.fmt(f),
-            Self::UnusedVertices { message, .. } | Self::Remark(message) => f.write_str(message),
+            Self::OfMesh { message, .. } | Self::Remark(message) => f.write_str(message),
         }
     }
 }
@@ -226,23 +235,6 @@ pub enum LoadError {
 }
 
 impl LoadError {
-    /// Every fault in a sentence of its own.
-    pub fn faults(&self) -> Vec<String> {
-        match self {
-            Self::Obj(error) => {
-                let more = (error.num_more > 0)
-                    .then(|| format!("and {} more lines that cannot be read", error.num_more));
-                error.faults.iter().map(ToString::to_string).chain(more).collect()
-            }
-            Self::Ply(error) => vec![error.to_string()],
-            Self::Usd(error) => vec![error.to_string()],
-            Self::Check(refusal) => {
-                let faults = refusal.error.errors.iter();
-                faults.map(|fault| fault.describe(&refusal.naming)).collect()
-            }
-        }
-    }
-
     /// What was ignored or completed before the fault was found.
     pub fn notices(&self) -> &[Notice] {
         match self {
@@ -259,6 +251,8 @@ pub struct Refusal {
     pub error: CheckError,
     /// What the file calls its vertices and faces.
     pub naming: Naming,
+    /// The line where each fault is to be mended, if it is known.
+    pub lines: Vec<Option<u32>>,
     /// What was ignored or completed.
     pub notices: Vec<Notice>,
 }

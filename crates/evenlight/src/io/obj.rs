@@ -46,7 +46,7 @@ use std::fmt;
 use std::io::Write;
 
 use super::load::{LoadError, Loaded, Naming, Notice};
-use crate::mesh::{Cage, FaceId, Mesh, Names, Tags, VertexId};
+use crate::mesh::{Cage, FaceId, Mesh, Names, Tagged, Tags, VertexId};
 
 mod channels;
 mod fault;
@@ -155,6 +155,22 @@ impl Source {
     /// The line on which `face` begins; `None` if there is no such face.
     pub fn face_line(&self, face: FaceId) -> Option<u32> {
         self.face_lines.get(face.index()).copied()
+    }
+
+    /// The line of the first of `tags` that is `wanted`, by what it is on and its sharpness.
+    pub(super) fn tag_line(
+        &self,
+        tags: &Tags,
+        wanted: impl Fn(Tagged, f64) -> bool,
+    ) -> Option<u32> {
+        let creases = tags.creases.iter().map(|c| (Tagged::Edge(c.edge), c.sharpness));
+        let corners = tags.corners.iter().map(|c| (Tagged::Vertex(c.vertex), c.sharpness));
+        let holes = tags.holes.iter().map(|&face| (Tagged::Face(face), 0.0));
+        let TagLines { creases: of_creases, corners: of_corners, holes: of_holes } =
+            &self.tag_lines;
+        let lines = creases.zip(of_creases).chain(corners.zip(of_corners));
+        let mut lines = lines.chain(holes.zip(of_holes));
+        lines.find(|((what, sharpness), _)| wanted(*what, *sharpness)).map(|(_, line)| *line)
     }
 
     /// What is in `tags` and not known here yet is of `line`.

@@ -256,7 +256,7 @@ pub(crate) fn one_per_line(listed: Vec<String>, total: usize) -> String {
 }
 
 /// Something that was accepted but should be known.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Warning {
     /// Vertices that are in no face; they are ignored, and the others keep their numbers.
     UnusedVertices(Vec<VertexId>),

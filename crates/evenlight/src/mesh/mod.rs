@@ -11,6 +11,7 @@ mod fan;
 mod fault;
 pub mod fix;
 pub mod isolation;
+mod marks;
 mod nets;
 mod refine;
 pub(crate) mod sharpness;
@@ -21,6 +22,7 @@ pub use check::{Cage, PrimvarFault};
 pub use fan::Fan;
 pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
+pub use marks::Marks;
 pub(crate) use nets::{cnet_vertices, fan_vertices};
 pub use sharpness::VertexRule;
 pub use tags::{
