@@ -87,7 +87,7 @@
 //!
 //! # Read on
 //!
-//! The chapters of the documentation are in `docs`: notation, surface, nets, derivation,
+//! The chapters of the documentation are in [`docs`]: notation, surface, nets, derivation,
 //! tables, shape, files. `examples` has small programs: load, evaluate, patches.
 //!
 //! # What is not promised

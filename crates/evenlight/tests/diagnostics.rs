@@ -44,12 +44,6 @@ fn every_fault_of_a_mesh_has_its_line_and_its_marks() {
             Some(6),
             of(&[], &[[0, 2]], &[]),
         ),
-        (
-            &format!("{square}t corner 1/1/0 0 1\nt corner 1/1/0 2 -1\n"),
-            "sharpness",
-            Some(7),
-            of(&[2], &[], &[]),
-        ),
     ] {
         let found = faults(&format!("{VERTICES}{faces}"));
         let same = |fault: &&Diagnostic| fault.kind == kind && fault.marks == marks;

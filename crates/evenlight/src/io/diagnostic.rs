@@ -170,15 +170,12 @@ impl Naming {
     /// The line where a fault of a mesh with `tags` is to be mended: that of the tag, or else the
     /// first face, or else the first vertex that it is about.
     pub(super) fn line(&self, fault: &MeshError, tags: &Tags) -> Option<u32> {
-        match (self, fault) {
-            (Self::Lines(source), MeshError::UnknownTag { what }) => {
-                source.tag_line(tags, |tagged, _| tagged == *what)
-            }
-            (Self::Lines(source), MeshError::Sharpness { what, sharpness }) => {
-                let same = |x: f64| x.to_bits() == sharpness.to_bits();
-                source.tag_line(tags, |tagged, x| tagged == *what && same(x))
-            }
-            (_, MeshError::UnknownTag { .. } | MeshError::Sharpness { .. }) => None,
+        match (fault, self) {
+            (
+                MeshError::UnknownTag { what } | MeshError::Sharpness { what, .. },
+                Self::Lines(source),
+            ) => source.tag_line(*what, tags),
+            (MeshError::UnknownTag { .. } | MeshError::Sharpness { .. }, _) => None,
             _ => self.line_of(&fault.marks()),
         }
     }

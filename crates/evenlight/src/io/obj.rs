@@ -157,20 +157,15 @@ impl Source {
         self.face_lines.get(face.index()).copied()
     }
 
-    /// The line of the first of `tags` that is `wanted`, by what it is on and its sharpness.
-    pub(super) fn tag_line(
-        &self,
-        tags: &Tags,
-        wanted: impl Fn(Tagged, f64) -> bool,
-    ) -> Option<u32> {
-        let creases = tags.creases.iter().map(|c| (Tagged::Edge(c.edge), c.sharpness));
-        let corners = tags.corners.iter().map(|c| (Tagged::Vertex(c.vertex), c.sharpness));
-        let holes = tags.holes.iter().map(|&face| (Tagged::Face(face), 0.0));
-        let TagLines { creases: of_creases, corners: of_corners, holes: of_holes } =
-            &self.tag_lines;
-        let lines = creases.zip(of_creases).chain(corners.zip(of_corners));
-        let mut lines = lines.chain(holes.zip(of_holes));
-        lines.find(|((what, sharpness), _)| wanted(*what, *sharpness)).map(|(_, line)| *line)
+    /// The line of the first of `tags` that is on `what`.
+    pub(super) fn tag_line(&self, what: Tagged, tags: &Tags) -> Option<u32> {
+        let TagLines { creases, corners, holes } = &self.tag_lines;
+        let at = |k: Option<usize>, lines: &[u32]| lines.get(k?).copied();
+        match what {
+            Tagged::Edge(edge) => at(tags.creases.iter().position(|c| c.edge == edge), creases),
+            Tagged::Vertex(v) => at(tags.corners.iter().position(|c| c.vertex == v), corners),
+            Tagged::Face(face) => at(tags.holes.iter().position(|&hole| hole == face), holes),
+        }
     }
 
     /// What is in `tags` and not known here yet is of `line`.
