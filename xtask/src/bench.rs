@@ -2,7 +2,8 @@
 //!
 //! The large cage is a torus of 25 x 50 cells, 24 x 24 quads each, with a block of 8 x 8 quads
 //! pulled out by 7 layers: 4 vertices of valence 5 at its foot, 4 of valence 3 on top, all far
-//! apart. That makes 1,000,000 quads with 10,000 extraordinary vertices.
+//! apart. That makes 1,000,000 quads with 10,000 extraordinary vertices. A smaller one has 29,200
+//! quads with 800 extraordinary vertices.
 //!
 //! ```text
 //!        3-----3
@@ -13,6 +14,7 @@
 //! ```
 
 mod peer;
+mod pose;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,14 +23,21 @@ use std::time::Instant;
 use evenlight::io::obj;
 use evenlight::{Mesh, Point, QuadId, SchemeKind, Surface, SurfaceOptions};
 
-/// Cells around the torus, the short way and the long way.
-const CELLS: [usize; 2] = [25, 50];
-/// Quads along the side of a cell.
-const CELL: usize = 24;
-/// Quads along the side of the pulled-out block.
-const BLOCK: usize = 8;
-/// Layers by which it is pulled out.
-const LAYERS: usize = 7;
+/// A torus with blocks pulled out of it.
+#[derive(Clone, Copy)]
+struct Studs {
+    /// Cells around the torus, the short way and the long way.
+    cells: [usize; 2],
+    /// Quads along the side of a cell.
+    cell: usize,
+    /// Quads along the side of the pulled-out block.
+    block: usize,
+    /// Layers by which it is pulled out.
+    layers: usize,
+}
+
+const LARGE: Studs = Studs { cells: [25, 50], cell: 24, block: 8, layers: 7 };
+const SMALL: Studs = Studs { cells: [10, 10], cell: 10, block: 6, layers: 8 };
 
 /// Measure time and memory: of given cages, then of one with 1,000,000 quads and 10,000
 /// extraordinary vertices. Prints; asserts nothing.
@@ -50,8 +59,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     for path in &arguments.cages {
         measure(&path.display().to_string(), &std::fs::read(path)?)?;
     }
+    pose::run("regular torus", &torus([250, 400]))?;
+    pose::run("studded torus", &studded_torus(SMALL))?;
     let mut text = Vec::new();
-    obj::write(&studded_torus(CELLS), &mut text)?;
+    obj::write(&studded_torus(LARGE), &mut text)?;
     measure("studded torus", &text)
 }
 
@@ -113,14 +124,21 @@ fn peak_memory() -> Option<f64> {
     Some(kib / (1024.0 * 1024.0))
 }
 
-/// The large cage, or one of fewer cells.
-fn studded_torus(cells: [usize; 2]) -> Mesh {
-    let mut builder = Builder { size: cells.map(|cells| cells * CELL), ..Builder::default() };
+/// A torus of so many quads, all regular.
+fn torus(size: [usize; 2]) -> Mesh {
+    studded_torus(Studs { cells: size, cell: 1, block: 0, layers: 0 })
+}
+
+fn studded_torus(studs: Studs) -> Mesh {
+    let size = studs.cells.map(|cells| cells * studs.cell);
+    let mut builder =
+        Builder { studs, size, ids: BTreeMap::new(), positions: Vec::new(), faces: Vec::new() };
     let [rows, columns] = builder.size;
     for i in 0..rows {
         for j in 0..columns {
             // Height 0 outside the blocks, on their tops the full height.
-            let height = if in_block(i) && in_block(j) { LAYERS } else { 0 };
+            let in_block = |k: usize| studs.in_block(k);
+            let height = if in_block(i) && in_block(j) { studs.layers } else { 0 };
             builder.quad([
                 (i, j, height),
                 (i + 1, j, height),
@@ -135,12 +153,16 @@ fn studded_torus(cells: [usize; 2]) -> Mesh {
     Mesh::new(builder.positions, builder.faces)
 }
 
-fn in_block(i: usize) -> bool {
-    (CELL - BLOCK) / 2 <= i % CELL && i % CELL < (CELL + BLOCK) / 2
+impl Studs {
+    /// Whether quad `k` of a row is in a block.
+    fn in_block(self, k: usize) -> bool {
+        let k = 2 * (k % self.cell);
+        self.cell - self.block <= k && k < self.cell + self.block && self.block > 0
+    }
 }
 
-#[derive(Default)]
 struct Builder {
+    studs: Studs,
     /// Quads around the torus, the short way and the long way.
     size: [usize; 2],
     ids: BTreeMap<(usize, usize, usize), u32>,
@@ -151,6 +173,7 @@ struct Builder {
 impl Builder {
     /// The walls below the sides of a top quad at which its block ends.
     fn walls(&mut self, i: usize, j: usize) {
+        let in_block = |k: usize| self.studs.in_block(k);
         let sides = [
             (!in_block(i.wrapping_sub(1)), (i, j + 1), (i, j)),
             (!in_block(i + 1), (i + 1, j), (i + 1, j + 1)),
@@ -158,7 +181,7 @@ impl Builder {
             (!in_block(j + 1), (i + 1, j + 1), (i, j + 1)),
         ];
         for (_, (a, b), (c, d)) in sides.into_iter().filter(|side| side.0) {
-            for layer in 0..LAYERS {
+            for layer in 0..self.studs.layers {
                 self.quad([(a, b, layer), (c, d, layer), (c, d, layer + 1), (a, b, layer + 1)]);
             }
         }

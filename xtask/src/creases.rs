@@ -188,7 +188,7 @@ fn build(mesh: &Mesh, creases: CreaseRings) -> Result<(Surface, usize), Box<dyn 
     let surface = Surface::build(Cage::new(mesh.clone())?, options)?;
     let is_fair = creases == CreaseRings::Fair;
     let point = surface.extraordinary_points().iter().position(|point| {
-        point.vertex == Some(VertexId(0))
+        point.vertex() == Some(VertexId(0))
             && matches!(point.rule, PointRule::FairCrease(_)) == is_fair
     });
     Ok((surface, point.ok_or("vertex 0 has not the rings asked for")?))
@@ -201,7 +201,7 @@ fn rings(mesh: &Mesh, creases: CreaseRings) -> Result<[Ring; RINGS], Box<dyn Err
     for place in surface.patch_places(RINGS).filter(|place| place.point == Some(point)) {
         let Role::Ring(number) = place.role else { continue };
         let ring = &mut rings[number - 1];
-        ring.energy += shape_energy(&surface.patch(&place));
+        ring.energy += shape_energy(&surface.patch(&place).unwrap());
         ring.mean = ring.mean.union(curvature_over(&surface, &place).mean);
     }
     Ok(rings)
@@ -217,7 +217,7 @@ fn jacobian(f: usize) -> Result<[f64; 2], Box<dyn Error>> {
     let (surface, point) = build(&half_disc(f, &flat), CreaseRings::Fair)?;
     let middle = |k: usize| (k as f64 + 0.5) / GRID as f64;
     let mut values = Vec::new();
-    for patch in surface.rings(point).patches(RING) {
+    for patch in surface.rings(point).unwrap().patches(RING) {
         let jets = (0..GRID * GRID).map(|k| patch.jet(middle(k / GRID), middle(k % GRID)));
         values.extend(jets.map(|jet| norm(cross(jet.du, jet.dv))));
     }

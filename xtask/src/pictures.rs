@@ -15,6 +15,7 @@ use evenlight::picture::{
     self, GraphOptions, Picture, RenderOptions, Style, View, compare, render,
 };
 use evenlight::point::{add, scale};
+use evenlight::rings::Rings;
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -134,8 +135,8 @@ fn fair() -> Result<Picture> {
 fn quadratic() -> Result<Picture> {
     let cage = cage("data/meshes/obstacle/monkey_n6.obj")?;
     let default = surface(&cage, SchemeKind::Qas4)?;
-    let q = *default.rings(0).quadratic().ok_or("qas4 has a quadratic")?;
-    let normal = default.rings(0).normal();
+    let q = *default.rings(0).and_then(Rings::quadratic).ok_or("qas4 has a quadratic")?;
+    let normal = default.rings(0).map_or([0.0; 3], Rings::normal);
     let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let lifted = q.transformed(identity, scale(0.25, normal));
     let about_center = |matrix: [[f64; 3]; 3]| {

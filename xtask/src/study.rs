@@ -128,7 +128,7 @@ fn measured(file: &Path) -> Result<Vec<Row>, Box<dyn Error>> {
         let surface = build(&cage, scheme)?;
         for at in scales.iter().filter(|at| at.scale > 0.0) {
             let point = &surface.extraordinary_points()[at.point];
-            let around = Around { point, rings: surface.rings(at.point), scale: at.scale };
+            let around = Around { point, rings: surface.rings(at.point).unwrap(), scale: at.scale };
             let empty = Measures { least: f64::INFINITY, ..Measures::default() };
             let row = rows.entry(point.valence).or_insert_with(|| vec![empty; SCHEMES.len()]);
             around.add_to(&mut row[k]);
@@ -267,7 +267,7 @@ fn spikes() -> Result<Vec<Spikes>, Box<dyn Error>> {
 fn far_side(flat: &Mesh, corner: usize, scheme: SchemeKind) -> Result<f64, Box<dyn Error>> {
     let mut mesh = flat.clone();
     let surface = build(&Arc::new(Cage::new(mesh.clone())?), scheme)?;
-    let center = surface.extraordinary_points()[0].vertex.ok_or("the point is a vertex")?;
+    let center = surface.extraordinary_points()[0].vertex().ok_or("the point is a vertex")?;
     let node = mesh.faces.iter().find_map(|face| {
         let at = face.iter().position(|&v| v == center)?;
         Some(face[(at + corner) % face.len()].index())
@@ -281,7 +281,7 @@ fn far_side(flat: &Mesh, corner: usize, scheme: SchemeKind) -> Result<f64, Box<d
 
 fn far_over_largest(surface: &Surface, from: [f64; 3], spike: [f64; 2]) -> f64 {
     let point = &surface.extraordinary_points()[0];
-    let rings = surface.rings(0);
+    let rings = surface.rings(0).unwrap();
     let (mut far, mut largest) = (0.0_f64, 0.0_f64);
     let sectors = point.sectors.iter().flat_map(|s| (0..64).map(move |step| (s.index, step)));
     for (sector, step) in sectors {

@@ -10,14 +10,15 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "point",
     "angle",
-    "parallel",
+    "task",
+    "quadrature",
     "dense",
     "patch",
-    "mesh",
     "net",
+    "mesh",
     "scheme",
     "rings",
     "cap",

@@ -292,7 +292,7 @@ fn beyond_all_rules(points: &[Extraordinary]) -> Option<SurfaceError> {
 }
 
 fn rule_name(cage: &Cage, point: &Extraordinary, options: SurfaceOptions) -> RuleName {
-    let rule = point.is_covered.then(|| PointRule::of(cage, point, options));
+    let rule = point.is_covered.then(|| PointRule::of(cage.topology(), point, options));
     RuleName {
         rule: rule.map_or("none", |rule| rule.name(options.scheme)),
         reason: match rule {

@@ -9,8 +9,8 @@ use std::io::{self, Write};
 
 use clap::Args;
 use evenlight::mesh::Primvar;
+use evenlight::patch::Answer;
 use evenlight::{FaceId, QuadId, Surface, SurfacePoint};
-use rayon::prelude::*;
 
 use crate::cap::CapRingsArg;
 use crate::error::Failure;
@@ -98,12 +98,11 @@ pub fn evaluate(
 }
 
 fn answers(surface: &Surface, rows: &[Row], quads: &[QuadId]) -> Vec<SurfacePoint> {
-    let queries = rows.par_iter().zip(quads);
-    queries
-        .map(|(row, &quad)| {
-            surface.eval(quad, row.u, row.v).expect("rows on omitted faces were refused")
-        })
-        .collect()
+    let places: Vec<_> = rows.iter().zip(quads).map(|(row, &quad)| (quad, row.u, row.v)).collect();
+    // Rows on omitted faces were refused: there is an answer everywhere.
+    let mut answers = vec![SurfacePoint::NAN; rows.len()];
+    surface.eval_each(&places, &mut answers);
+    answers
 }
 
 fn write_row(
@@ -142,9 +141,9 @@ fn write_primvars(
 ) -> io::Result<()> {
     for (k, primvar) in primvars.iter().enumerate() {
         let jet = surface
-            .eval_primvar(k, quad, row.u, row.v)
+            .eval_primvar::<4>(k, quad, row.u, row.v)
             .expect("rows on omitted faces were refused, and the primvar is one of the cage");
-        let numbers = [jet.value, jet.du, jet.dv];
+        let numbers = [jet.p, jet.du, jet.dv];
         let numbers = numbers.iter().flat_map(|x| &x[..primvar.width]);
         numbers.copied().try_for_each(|x| write_number(out, x))?;
     }
@@ -245,7 +244,7 @@ impl<'a> Row<'a> {
     /// The parametric quad that is asked for, which has a surface.
     fn quad(&self, surface: &Surface) -> Result<QuadId, Fault> {
         let fault = |text: String| Fault { line: self.line, text };
-        let faces = surface.cage().topology().faces();
+        let faces = surface.topology().faces();
         if self.face.index() >= faces.len() {
             return Err(fault(format!(
                 "there is no face {}: {}",

@@ -161,9 +161,8 @@ pub fn build(
         error => Failure::Unusable(format!("{source}: {error}")),
     })?;
     let places = surface.extraordinary_points().iter().filter_map(|point| {
-        let place = point.vertex.map(Place::Vertex).or(point.face.map(Place::FaceCentre))?;
         (point.rule == PointRule::CatmullClark(surface::Reason::Valence))
-            .then_some((place, point.valence))
+            .then_some((point.place, point.valence))
     });
     if let Some(warning) = valence_warning(places, options) {
         warn(format_args!("{source}: {warning}"));
@@ -214,7 +213,7 @@ pub fn valence_warning(
 ///
 /// If none has.
 pub fn report_omitted(surface: &Surface, source: &Source) -> Result<(), Failure> {
-    let faces = surface.cage().num_faces();
+    let faces = surface.topology().faces().len();
     match surface.omitted_faces().len() {
         0 => Ok(()),
         omitted if omitted == faces => {

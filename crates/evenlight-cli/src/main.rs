@@ -33,6 +33,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use evenlight::task::Task;
 
 use error::Failure;
 use options::Global;
@@ -87,18 +88,11 @@ enum Command {
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    match use_threads(&cli.global).and_then(|()| run(&cli)) {
+    let threads = cli.global.threads.map_or(0, usize::from);
+    match Task::new().threads(threads).run(|| run(&cli)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
-}
-
-fn use_threads(global: &Global) -> Result<(), Failure> {
-    let Some(threads) = global.threads else { return Ok(()) };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
-        .build_global()
-        .map_err(|error| Failure::Unusable(format!("{threads} threads: {error}")))
 }
 
 fn run(cli: &Cli) -> Result<(), Failure> {

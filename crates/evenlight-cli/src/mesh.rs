@@ -65,8 +65,7 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     progress.stage("Building the surface");
     let surface = args.caps.read(&args.surface)?;
     progress.step();
-    progress.stage("Evaluating vertices");
-    let mesh = triangles(&surface, args.rate.into())?;
+    let mesh = progress.show(|| triangles(&surface, args.rate.into()))?;
     progress.step();
     progress.stage("Writing triangles");
     let has_channels = io::MeshFormat::from(format).has_channels();

@@ -1,10 +1,12 @@
 //! A progress bar on stderr for work that takes more than a second.
 
 use std::io::{IsTerminal, stderr};
+use std::ops::ControlFlow;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
+use evenlight::task::Task;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// How long the work may take before a bar appears.
@@ -41,6 +43,22 @@ impl Progress {
     /// One step is done.
     pub fn step(&self) {
         self.bar.inc(1);
+    }
+
+    /// Does work of the library, whose own stages and steps the bar shows meanwhile.
+    pub fn show<T>(&self, work: impl FnOnce() -> T) -> T {
+        let (done, total) = (self.bar.position(), self.bar.length().unwrap_or(0));
+        let bar = self.bar.clone();
+        let watched = Task::new().watch(move |at| {
+            bar.set_message(at.stage);
+            bar.set_length(at.total as u64);
+            bar.set_position(at.done as u64);
+            ControlFlow::Continue(())
+        });
+        let result = watched.run(work);
+        self.bar.set_length(total);
+        self.bar.set_position(done);
+        result
     }
 }
 
@@ -79,6 +97,7 @@ fn style() -> ProgressStyle {
 
 #[cfg(test)]
 mod tests {
+    use evenlight::{Cage, Mesh, Surface, SurfaceOptions};
     use indicatif::InMemoryTerm;
 
     use super::*;
@@ -100,6 +119,21 @@ mod tests {
         assert!(screen.contents().contains("Thinking ["));
         drop(progress);
         assert_eq!(screen.contents(), "");
+    }
+
+    #[test]
+    fn the_bar_shows_the_steps_of_the_library() {
+        let (screen, progress) = on_screen(Duration::from_millis(1));
+        let square = vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+        let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]])).unwrap();
+        let surface = Surface::build(cage, SurfaceOptions::default()).unwrap();
+        progress.show(|| {
+            evenlight::tessellate::tessellate(&surface, 2).unwrap();
+            while !screen.contents().contains("Evaluating vertices [") {
+                thread::sleep(Duration::from_millis(5));
+            }
+        });
+        assert_eq!((progress.bar.position(), progress.bar.length()), (0, Some(3)));
     }
 
     #[test]

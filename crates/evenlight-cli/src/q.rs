@@ -21,7 +21,9 @@ mod file;
 use std::io::{self, Write};
 
 use clap::Args;
+use evenlight::mesh::isolation::Place;
 use evenlight::net::Quadratic;
+use evenlight::rings::Rings;
 use evenlight::surface::ExtraordinaryPoint;
 use evenlight::{Point, SchemeKind, Surface};
 use serde_json::json;
@@ -116,7 +118,8 @@ pub fn run(args: &QArgs) -> Result<(), Failure> {
 
 /// The quadratic at one point.
 struct Row<'a> {
-    place: &'a ExtraordinaryPoint,
+    point: &'a ExtraordinaryPoint,
+    rings: &'a Rings,
     q: Quadratic,
     /// The larger first, in 1/unit; NaN without a tangent plane.
     principal_curvatures: [f64; 2],
@@ -125,11 +128,11 @@ struct Row<'a> {
 fn rows(surface: &Surface) -> Vec<Row<'_>> {
     let points = surface.extraordinary_points().iter().enumerate();
     // Points with Catmull-Clark's rule have none.
-    let row = |(k, place)| {
-        let rings = surface.rings(k);
+    let row = |(k, point)| {
+        let rings = surface.rings(k)?;
         let q = *rings.quadratic()?;
         let principal_curvatures = rings.eval(0, 0.0, 0.0).principal_curvatures();
-        Some(Row { place, q, principal_curvatures })
+        Some(Row { point, rings, q, principal_curvatures })
     };
     points.filter_map(row).collect()
 }
@@ -137,9 +140,9 @@ fn rows(surface: &Surface) -> Vec<Row<'_>> {
 /// The quadratics for people.
 fn table(rows: &[Row]) -> Table {
     let mut table = Table::new(&["point", "valence", "center", "normal", "k1", "k2"]);
-    for Row { place, principal_curvatures: k, .. } in rows {
-        let vectors = [place.position, place.normal].map(triple);
-        let names = [point_name(place), place.valence.to_string()];
+    for Row { point, rings, principal_curvatures: k, .. } in rows {
+        let vectors = [rings.center(), rings.normal()].map(triple);
+        let names = [point_name(point), point.valence.to_string()];
         table.push(names.into_iter().chain(vectors).chain(k.map(short)));
     }
     table
@@ -152,14 +155,13 @@ fn write_json(rows: &[Row], with_sectors: bool, out: &mut dyn Write) -> io::Resu
 }
 
 fn object(row: &Row, with_sectors: bool) -> String {
-    let Row { place, q, principal_curvatures } = row;
-    let id = match (place.vertex, place.face) {
-        (Some(v), _) => format!("\"vertex\": {}", v.0),
-        (_, Some(f)) => format!("\"face\": {}", f.0),
-        _ => unreachable!("a point is a vertex or the centre of a face"),
+    let Row { point, rings, q, principal_curvatures } = row;
+    let id = match point.place {
+        Place::Vertex(v) => format!("\"vertex\": {}", v.0),
+        Place::FaceCentre(f) => format!("\"face\": {}", f.0),
     };
     let points = if with_sectors {
-        let sectors = (0..place.valence).map(|s| q.in_sector(place.valence, s).coefs);
+        let sectors = (0..point.valence).map(|s| q.in_sector(point.valence, s).coefs);
         format!("\"sectors\": [{}]", sectors.map(|q| lines(&q)).collect::<Vec<_>>().join(","))
     } else {
         format!("\"coefficients\": {}", lines(&q.coefs))
@@ -167,9 +169,9 @@ fn object(row: &Row, with_sectors: bool) -> String {
     // What does not exist is null: JSON has no word for NaN.
     format!(
         "\n{{{id}, \"valence\": {}, \"center\": {},\n\"normal\": {}, \"principal_curvatures\": {},\n{points}}}",
-        place.valence,
-        json!(place.position),
-        json!(existing(place.normal)),
+        point.valence,
+        json!(rings.center()),
+        json!(existing(rings.normal())),
         json!(existing(*principal_curvatures)),
     )
 }

@@ -142,9 +142,8 @@ pub fn run(args: &RenderArgs, quiet: bool) -> Result<(), Failure> {
     progress.stage("Building the surface");
     let surfaces = surfaces(args)?;
     progress.step();
-    progress.stage("Drawing");
     let options = options(args, &surfaces[0])?;
-    let picture = draw(&surfaces, &options, !args.compare.is_empty())?;
+    let picture = progress.show(|| draw(&surfaces, &options, !args.compare.is_empty()))?;
     progress.step();
     progress.stage("Writing the picture");
     write(&picture, &args.output)
@@ -173,7 +172,7 @@ pub fn write(picture: &Picture, target: &Target) -> Result<(), Failure> {
 /// The view along the limit normal of the extraordinary vertex `vertex`.
 pub fn view_at(surface: &Surface, vertex: VertexId) -> Option<View> {
     let points = surface.extraordinary_points();
-    View::toward(surface, points.iter().position(|point| point.vertex == Some(vertex))?)
+    View::toward(surface, points.iter().position(|point| point.vertex() == Some(vertex))?)
 }
 
 /// The surfaces to show, at least one.

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use evenlight::Vector;
+use evenlight::mesh::isolation::Place;
 use evenlight::surface::ExtraordinaryPoint;
 
 /// Rows of cells under a header.
@@ -87,10 +88,9 @@ pub fn triple(v: Vector) -> String {
 
 /// `vertex 7`, or `face 7` for the centre of a face that is no quad.
 pub fn point_name(point: &ExtraordinaryPoint) -> String {
-    match (point.vertex, point.face) {
-        (Some(v), _) => format!("vertex {}", v.0),
-        (_, Some(f)) => format!("face {}", f.0),
-        _ => String::new(),
+    match point.place {
+        Place::Vertex(v) => format!("vertex {}", v.0),
+        Place::FaceCentre(f) => format!("face {}", f.0),
     }
 }
 

@@ -23,8 +23,9 @@
 //! - [`rings`]: the rings in degree bi-6, bi-5, bi-4 and bi-3 ([`pieces`]).
 //! - [`fit`]: the guide of a c-net, the fairest by the measures of [`fairness`].
 //! - [`cap`]: bi-6 patches that close the hole after any ring.
-//! - [`table`]: what a library needs of each valence, in integers.
-//! - [`rounded`]: the same for any valence and contraction, at run time.
+//! - [`symmetry`]: the mirrors of a sector.
+//! - [`rounded`]: what a library needs of any valence and contraction, at run time; the same as
+//!   integers in tables is in [`crate::emit`].
 //! - [`bb`]: univariate Bernstein-Bezier tools; [`solutions`]: systems that leave freedom.
 //!
 //! Sectors and lines are as everywhere in this crate: sector s lies between line s-1, along which
@@ -47,5 +48,5 @@ pub mod rings;
 pub mod rounded;
 pub mod solutions;
 pub mod space;
-pub mod table;
+pub mod symmetry;
 pub mod waves;

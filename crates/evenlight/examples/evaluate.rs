@@ -36,7 +36,7 @@ fn show(surface: &Surface) -> Result<(), Box<dyn Error>> {
         let [x, y, z] = at.jet.p;
         println!("  at {step:<8} ({x:.6}, {y:.6}, {z:.6})  K {:.6}  H {:.6}", at.gauss, at.mean);
     }
-    let [x, y, z] = point.normal;
+    let [x, y, z] = surface.rings(0).ok_or("the point has no rings")?.normal();
     println!("  the normal at the point is ({x:.6}, {y:.6}, {z:.6})");
     Ok(())
 }

@@ -60,9 +60,10 @@
 //! | module | |
 //! | --- | --- |
 //! | [`point`] | points and vectors |
+//! | [`task`] | threads, progress, cancelling |
 //! | [`patch`] | Bernstein-Bezier patches, jets |
-//! | [`mesh`] | cages, connectivity, isolation of extraordinary points |
 //! | [`net`] | control nets around one extraordinary point, the quadratic q |
+//! | [`mesh`] | cages, connectivity, isolation of extraordinary points |
 //! | [`scheme`] | which rules there are |
 //! | [`rings`] | the surface around one extraordinary point at any depth |
 //! | [`cap`] | finitely many patches instead of all further rings |
@@ -104,21 +105,22 @@ mod dense;
 pub mod io;
 pub mod mesh;
 pub mod net;
-mod parallel;
 pub mod patch;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod point;
+mod quadrature;
 pub mod rings;
 pub mod scheme;
 pub mod surface;
+pub mod task;
 pub mod tessellate;
 
 pub use mesh::{Cage, FaceId, Mesh, VertexId};
 pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
 pub use scheme::{Contraction, RuleSet, SchemeKind, Variant};
-pub use surface::{QuadId, Surface, SurfaceOptions};
+pub use surface::{Layout, QuadId, Surface, SurfaceOptions};
 
 #[cfg(any(doc, doctest))]
 pub mod docs;

@@ -1,7 +1,9 @@
-//! Points and vectors in space, with the few operations that the geometry needs.
+//! Points and vectors, with the few operations that the geometry needs.
 //!
 //! A point is a plain array, so that callers need no type of ours and coordinates can be
 //! handed over without a copy. All operations round like the formula that is written.
+//!
+//! What is linear works on `[f64; N]`: positions have three numbers, primvars one to four.
 
 /// A point in space, in the units of the input mesh.
 pub type Point = [f64; 3];
@@ -10,30 +12,48 @@ pub type Point = [f64; 3];
 pub type Vector = [f64; 3];
 
 /// `a + b`.
-pub fn add(a: Vector, b: Vector) -> Vector {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+#[inline]
+pub fn add<const N: usize>(mut a: [f64; N], b: [f64; N]) -> [f64; N] {
+    for k in 0..N {
+        a[k] += b[k];
+    }
+    a
 }
 
 /// `a - b`.
-pub fn sub(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+#[inline]
+pub fn sub<const N: usize>(mut a: [f64; N], b: [f64; N]) -> [f64; N] {
+    for k in 0..N {
+        a[k] -= b[k];
+    }
+    a
 }
 
 /// `w a`.
-pub fn scale(w: f64, a: Vector) -> Vector {
-    [w * a[0], w * a[1], w * a[2]]
+#[inline]
+pub fn scale<const N: usize>(w: f64, mut a: [f64; N]) -> [f64; N] {
+    for x in &mut a {
+        *x *= w;
+    }
+    a
 }
 
 /// `sum += w a`, the step of every weighted sum.
-pub fn add_scaled(sum: &mut Vector, w: f64, a: Vector) {
-    for k in 0..3 {
+#[inline]
+pub fn add_scaled<const N: usize>(sum: &mut [f64; N], w: f64, a: [f64; N]) {
+    for k in 0..N {
         sum[k] += w * a[k];
     }
 }
 
 /// The scalar product of `a` and `b`.
-pub fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+#[inline]
+pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    let mut sum = a[0] * b[0];
+    for k in 1..N {
+        sum += a[k] * b[k];
+    }
+    sum
 }
 
 /// The cross product `a x b`, right-handed.
@@ -42,7 +62,7 @@ pub fn cross(a: Vector, b: Vector) -> Vector {
 }
 
 /// The length of `a`.
-pub fn norm(a: Vector) -> f64 {
+pub fn norm<const N: usize>(a: [f64; N]) -> f64 {
     dot(a, a).sqrt()
 }
 
@@ -54,8 +74,18 @@ pub fn unit(a: Vector) -> Vector {
     scale(1.0 / norm(b), b)
 }
 
+/// The first three numbers of `a`; those that it does not have are zero.
+#[inline]
+pub(crate) fn in_space<const N: usize>(a: [f64; N]) -> Vector {
+    let mut r = [0.0; 3];
+    for k in 0..N.min(3) {
+        r[k] = a[k];
+    }
+    r
+}
+
 /// The point `(1 - t) a + t b`.
-pub fn lerp(a: Point, b: Point, t: f64) -> Point {
+pub fn lerp<const N: usize>(a: [f64; N], b: [f64; N], t: f64) -> [f64; N] {
     std::array::from_fn(|k| (1.0 - t) * a[k] + t * b[k])
 }
 

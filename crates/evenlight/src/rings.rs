@@ -28,6 +28,9 @@
 //! X, Y, Z stay of the same size for ever, the factors cancel in the curvatures, and ring 1000 is
 //! as exact as ring 1. The one thing to guard is that rounding must not bring the part that
 //! shrinks by lambda back into Z: it is removed in every step.
+//!
+//! Primvars of N numbers have the same rings. Their first three numbers are taken as a point in
+//! space; a fourth has no frame and shrinks by lambda.
 
 mod grid;
 
@@ -35,11 +38,10 @@ pub(crate) use grid::for_each_pair;
 
 use std::sync::{Arc, OnceLock};
 
-use crate::mesh::Fan;
-use crate::net::{CNet, DNet, Expansion, Quadratic};
+use crate::net::{CNet, DNet, Expansion, Fan, Quadratic};
 use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
-use crate::point::{Point, Vector, add, add_scaled, cross, dot, norm, scale, sub, unit};
+use crate::point::{Vector, add, add_scaled, cross, dot, in_space, norm, scale, sub, unit};
 use crate::scheme::{
     FairFan, FanLimit, PatchParameters, Rules, SchemeKind, Subdominant, Variant, fair_rules,
     fan_rules,
@@ -49,11 +51,20 @@ use crate::scheme::{
 /// valence.
 #[derive(Clone, Debug)]
 pub(crate) struct ValenceRules {
-    kind: SchemeKind,
+    family: Family,
     rules: Rules,
     subdominant: Subdominant,
-    /// Of a fan between sharp edges, not of a scheme.
-    fan: Option<FanLimit>,
+}
+
+/// What rules belong to.
+#[derive(Clone, Debug)]
+enum Family {
+    /// A scheme, all around a point.
+    Scheme(SchemeKind),
+    /// Catmull-Clark's rules of a fan between sharp edges.
+    Fan(FanLimit),
+    /// The fair rules of a fan on one side of a crease.
+    FairFan(FanLimit),
 }
 
 impl ValenceRules {
@@ -61,38 +72,52 @@ impl ValenceRules {
     pub(crate) fn new(kind: SchemeKind, variant: Variant, valence: usize) -> Option<Self> {
         let rules = kind.rules(variant, valence)?;
         let subdominant = Subdominant::new(&rules);
-        Some(Self { kind, rules, subdominant, fan: None })
+        Some(Self { family: Family::Scheme(kind), rules, subdominant })
     }
 
     /// Catmull-Clark's rules of a fan.
     pub(crate) fn of_fan(shape: Fan) -> Self {
         let (rules, limit) = fan_rules(shape);
         let subdominant = Subdominant::without_plane(&rules, limit.lambda);
-        Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) }
+        Self { family: Family::Fan(limit), rules, subdominant }
     }
 
     /// The fair rules of a fan on one side of a crease; `None` if there are none.
     pub(crate) fn of_fair_fan(shape: Fan) -> Option<Self> {
         let FairFan { rules, limit, subdominant } = fair_rules(shape)?.clone();
-        Some(Self { kind: SchemeKind::CatmullClark, rules, subdominant, fan: Some(limit) })
+        Some(Self { family: Family::FairFan(limit), rules, subdominant })
     }
 
     /// Whether they are the fair rules of a fan on one side of a crease.
     pub(crate) fn is_fair_fan(&self) -> bool {
-        self.fan.is_some() && self.rules.split > 1
+        matches!(self.family, Family::FairFan(_))
     }
 
-    /// Of a fan between sharp edges, which has no turns, its limit.
+    /// The limit of a fan between sharp edges.
     pub(crate) fn fan_limit(&self) -> Option<&FanLimit> {
-        self.fan.as_ref()
+        match &self.family {
+            Family::Scheme(_) => None,
+            Family::Fan(limit) | Family::FairFan(limit) => Some(limit),
+        }
     }
 
+    /// The scheme; fans have Catmull-Clark's place.
     pub(crate) fn kind(&self) -> SchemeKind {
-        self.kind
+        match self.family {
+            Family::Scheme(kind) => kind,
+            Family::Fan(_) | Family::FairFan(_) => SchemeKind::CatmullClark,
+        }
     }
 
     pub(crate) fn rules(&self) -> &Rules {
         &self.rules
+    }
+
+    /// The weights of all rows: what the rules take in memory.
+    pub(crate) fn num_weights(&self) -> usize {
+        let rules = &self.rules;
+        let patches = rules.patches.iter().flat_map(|rule| rule.old.iter().chain(&rule.new));
+        rules.refine.iter().chain(patches).map(Vec::len).sum()
     }
 
     pub(crate) fn subdominant(&self) -> &Subdominant {
@@ -115,16 +140,16 @@ impl ValenceRules {
 /// assert_eq!(rings.patches(0).len(), 15);
 /// ```
 #[derive(Debug)]
-pub struct Rings {
+pub struct Rings<const N: usize = 3> {
     rules: Arc<ValenceRules>,
-    center: Point,
+    center: [f64; N],
     /// The normal at the limit point, or NaN.
     normal: Vector,
-    quadratic: Option<Quadratic>,
-    frame: Frame,
+    quadratic: Option<Quadratic<N>>,
+    frame: Frame<N>,
     /// The net in front of ring 0, in the frame.
-    first: Vec<Vector>,
-    cached: [OnceLock<Box<Ring>>; CACHED_RINGS],
+    first: Vec<[f64; N]>,
+    cached: [OnceLock<Box<Ring<N>>>; CACHED_RINGS],
 }
 
 /// Rings that are kept once they were asked for. A parameter closer to the centre than
@@ -137,29 +162,32 @@ const FLATTEST: f64 = 1e-12;
 
 /// Where X, Y and Z point, and how Z shrinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Frame {
-    axes: [Vector; 3],
+struct Frame<const N: usize> {
+    axes: [[f64; N]; N],
     /// Whether Z is the height over a tangent plane. There is none if the tangents are parallel
     /// or zero (a cusp, or all points in one); then Z shrinks like X and Y.
     has_plane: bool,
 }
 
+/// The number of the coordinate that is the height over the tangent plane.
+const HEIGHT: usize = 2;
+
 /// One ring in frame coordinates, scaled as the module says.
 #[derive(Debug)]
-struct Ring {
+struct Ring<const N: usize> {
     /// The BB coefficients of the patches of each sector, made when it is first evaluated: they
     /// take most of the memory.
-    sectors: Box<[OnceLock<Box<[Vector]>>]>,
+    sectors: Box<[OnceLock<Box<[[f64; N]]>>]>,
     /// The net in front of the next ring, in its own scale.
-    next: Vec<Vector>,
-    scale: RingScale,
+    next: Vec<[f64; N]>,
+    scale: RingScale<N>,
 }
 
 /// How the coordinates of a ring become those of the world.
 #[derive(Clone, Copy, Debug)]
-struct RingScale {
+struct RingScale<const N: usize> {
     /// The axes of the frame, the height with its factor zeta.
-    axes: [Vector; 3],
+    axes: [[f64; N]; N],
     zeta: f64,
     /// lambda^l, the factor of positions.
     sigma: f64,
@@ -169,30 +197,65 @@ struct RingScale {
     second: f64,
 }
 
-impl RingScale {
+impl<const N: usize> RingScale<N> {
     /// factor (X, Y, zeta Z) in world coordinates.
     #[inline(always)]
-    fn world(&self, factor: f64, r: Vector) -> Vector {
-        let along = |k: usize| {
-            factor * (r[0] * self.axes[0][k] + r[1] * self.axes[1][k] + r[2] * self.axes[2][k])
-        };
-        [along(0), along(1), along(2)]
+    fn world(&self, factor: f64, r: [f64; N]) -> [f64; N] {
+        let mut world = [0.0; N];
+        for (k, x) in world.iter_mut().enumerate() {
+            let mut sum = r[0] * self.axes[0][k];
+            for i in 1..N {
+                sum += r[i] * self.axes[i][k];
+            }
+            *x = factor * sum;
+        }
+        world
     }
 }
 
 impl Rings {
+    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
+    ///
+    /// At (0,0) the position is the limit point and the normal the limit normal; derivatives are
+    /// NaN there, curvature is [`Rings::center_curvature`] or NaN. Elsewhere curvature is exact to rounding at any depth.
+    /// Derivatives are in world coordinates; beyond ring 500 or so the second derivatives may
+    /// exceed the range of f64.
+    ///
+    /// # Panics
+    ///
+    /// If `s` is not below the valence or a, b are not from 0 to 1.
+    pub fn eval(&self, s: usize, a: f64, b: f64) -> SurfacePoint {
+        self.eval_as(s, a, b)
+    }
+
+    /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
+    /// polynomial is extrapolated if (a,b) is not in the patch.
+    pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
+        self.eval_on_as(ring, s, which, [a, b])
+    }
+}
+
+impl<const N: usize> Rings<N> {
     /// The surface over a c-net; `None` if the scheme has no rules for its valence.
-    pub fn from_cnet(cnet: &CNet, kind: SchemeKind, variant: impl Into<Variant>) -> Option<Self> {
+    pub fn from_cnet(
+        cnet: &CNet<N>,
+        kind: SchemeKind,
+        variant: impl Into<Variant>,
+    ) -> Option<Self> {
         let rules = Arc::new(ValenceRules::new(kind, variant.into(), cnet.valence())?);
-        Some(Self::with_rules(cnet, rules, None))
+        Some(Self::with_rules(cnet, rules))
     }
 
     /// The surface over a d-net with c_0 by [`DNet::center`]; `None` if the scheme has no rules
     /// for its valence or does not work on d-nets.
-    pub fn from_dnet(dnet: &DNet, kind: SchemeKind, variant: impl Into<Variant>) -> Option<Self> {
+    pub fn from_dnet(
+        dnet: &DNet<N>,
+        kind: SchemeKind,
+        variant: impl Into<Variant>,
+    ) -> Option<Self> {
         let rules = Arc::new(ValenceRules::new(kind, variant.into(), dnet.valence())?);
         let center = dnet.center(kind.spline()?);
-        let net: Vec<Vector> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
+        let net: Vec<[f64; N]> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
         Some(Self::start(&net, center, None, rules))
     }
 
@@ -200,29 +263,31 @@ impl Rings {
     /// limit point; `None` if the scheme has no quadratic.
     ///
     /// The control net, and so the outer border up to second derivatives, stays as it is.
-    pub fn with_quadratic(&self, q: &Quadratic) -> Option<Self> {
+    pub fn with_quadratic(&self, q: &Quadratic<N>) -> Option<Self> {
         let rules = &self.rules.rules;
         rules.quadratic.as_ref()?;
         let control = rules.control_nodes_per_sector();
         let sectors = self.first.chunks(rules.nodes_per_sector);
-        let moved: Vec<Vector> = sectors
+        let moved: Vec<[f64; N]> = sectors
             .flat_map(|sector| &sector[..control])
-            .map(|&p| sub(add(self.center, self.frame.world(1.0, 1.0, p)), q.center()))
+            .map(|&p| sub(add(self.center, self.frame.world(p)), q.center()))
             .collect();
         Some(Self::start(&moved, q.center(), Some(q.expansion()), self.rules.clone()))
     }
 
-    pub(crate) fn with_rules(cnet: &CNet, rules: Arc<ValenceRules>, q: Option<&Quadratic>) -> Self {
-        let center = q.map_or_else(|| rules.kind.limit_point(cnet), Quadratic::center);
+    pub(crate) fn with_rules(cnet: &CNet<N>, rules: Arc<ValenceRules>) -> Self {
+        let center = rules.kind().limit_point(cnet);
         let cnet = cnet.relative_to(center);
-        let net = rules.rules.guided_net(&cnet).unwrap_or_else(|| rules.kind.net(&cnet));
-        Self::start(&net, center, q.map(Quadratic::expansion), rules)
+        let net = rules.rules.guided_net(&cnet).unwrap_or_else(|| rules.kind().net(&cnet));
+        Self::start(&net, center, None, rules)
     }
 
     /// The surface over the net of a fan: two nodes on every line, four in every sector, the vertex.
-    pub(crate) fn over_fan(net: &[Point], rules: Arc<ValenceRules>) -> Option<Self> {
-        let limit = rules.fan.as_ref()?;
-        let (center, normal) = (limit.limit_point(net), limit.normal(net));
+    pub(crate) fn over_fan(net: &[[f64; N]], rules: Arc<ValenceRules>) -> Option<Self> {
+        let limit = rules.fan_limit()?;
+        let center = limit.limit_point(net);
+        let in_space: Vec<Vector> = net.iter().map(|&p| in_space(p)).collect();
+        let normal = limit.normal(&in_space);
         let mut rings = Self::start(&limit.first_net(net), center, None, rules.clone());
         rings.normal = normal.unwrap_or(rings.normal);
         Some(rings)
@@ -231,9 +296,9 @@ impl Rings {
     /// The surface of a control net relative to its limit point `center`, with the given or the
     /// default quadratic if the scheme has one.
     fn start(
-        net: &[Vector],
-        center: Point,
-        q: Option<Expansion>,
+        net: &[[f64; N]],
+        center: [f64; N],
+        q: Option<Expansion<N>>,
         rules: Arc<ValenceRules>,
     ) -> Self {
         let q = rules.rules.default_quadratic(net).map(|default| q.unwrap_or(default));
@@ -242,13 +307,13 @@ impl Rings {
             None => net.to_vec(),
         };
         let frame = Frame::new(&rules.subdominant, &net);
-        let mut first: Vec<Vector> = net.iter().map(|&p| frame.coordinates(p)).collect();
-        if frame.has_plane {
-            rules.subdominant.remove_from_coordinate(2, &mut first);
+        let mut first: Vec<[f64; N]> = net.iter().map(|&p| frame.coordinates(p)).collect();
+        if frame.has_height() {
+            rules.subdominant.remove_from_coordinate(HEIGHT, &mut first);
         }
         let quadratic = q.map(|q| Quadratic::from_expansion(center, q));
         let cached = [const { OnceLock::new() }; CACHED_RINGS];
-        let normal = if frame.has_plane { frame.axes[2] } else { [f64::NAN; 3] };
+        let normal = frame.normal();
         Self { rules, center, normal, quadratic, frame, first, cached }
     }
 
@@ -269,16 +334,17 @@ impl Rings {
     }
 
     /// The limit point c_0.
-    pub fn center(&self) -> Point {
+    pub fn center(&self) -> [f64; N] {
         self.center
     }
 
     /// The quadratic at the centre, for schemes that have one.
-    pub fn quadratic(&self) -> Option<&Quadratic> {
+    pub fn quadratic(&self) -> Option<&Quadratic<N>> {
         self.quadratic.as_ref()
     }
 
-    /// The unit normal at the limit point; NaN if there is no tangent plane.
+    /// The unit normal at the limit point; NaN if there is no tangent plane (of primvars, that of
+    /// their first three numbers).
     pub fn normal(&self) -> Vector {
         self.normal
     }
@@ -298,12 +364,12 @@ impl Rings {
     }
 
     /// All patches of ring `ring` (from 0), sector by sector.
-    pub fn patches(&self, ring: usize) -> Vec<Patch> {
+    pub fn patches(&self, ring: usize) -> Vec<Patch<N>> {
         self.frame_patches(ring).iter().map(|patch| self.to_world(ring, patch)).collect()
     }
 
     /// Patch `which` of sector `s` of ring `ring`.
-    pub fn patch(&self, ring: usize, s: usize, which: usize) -> Patch {
+    pub fn patch(&self, ring: usize, s: usize, which: usize) -> Patch<N> {
         self.with_ring(ring, |net, r| {
             let mut coefs = self.coefs(net, r, s, which);
             coefs.iter_mut().for_each(|p| *p = add(self.center, r.scale.world(r.scale.sigma, *p)));
@@ -311,23 +377,9 @@ impl Rings {
         })
     }
 
-    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
-    ///
-    /// At (0,0) the position is the limit point and the normal the limit normal; derivatives are
-    /// NaN there, curvature is [`Rings::center_curvature`] or NaN. Elsewhere curvature is exact to rounding at any depth.
-    /// Derivatives are in world coordinates; beyond ring 500 or so the second derivatives may
-    /// exceed the range of f64.
-    ///
-    /// # Panics
-    ///
-    /// If `s` is not below the valence or a, b are not from 0 to 1.
-    pub fn eval(&self, s: usize, a: f64, b: f64) -> SurfacePoint {
-        self.eval_as(s, a, b)
-    }
-
     /// [`Rings::eval`] of what is wanted alone.
     #[inline]
-    pub(crate) fn eval_as<A: Answer>(&self, s: usize, a: f64, b: f64) -> A {
+    pub(crate) fn eval_as<A: Answer<N>>(&self, s: usize, a: f64, b: f64) -> A {
         assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
         if a.max(b) == 0.0 {
             return self.at_center();
@@ -337,9 +389,14 @@ impl Rings {
         self.eval_in_patch(ring, s, place)
     }
 
-    /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
-    /// polynomial is extrapolated if (a,b) is not in the patch.
-    pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
+    /// [`Rings::eval_on`] of what is wanted alone.
+    pub(crate) fn eval_on_as<A: Answer<N>>(
+        &self,
+        ring: usize,
+        s: usize,
+        which: usize,
+        [a, b]: [f64; 2],
+    ) -> A {
         let ([a0, b0], size) = self.rules.rules.patch_square(which);
         let [a, b] = self.in_hole(ring, [a, b]);
         let at = [(a - a0) / size[0], (b - b0) / size[1]];
@@ -359,7 +416,7 @@ impl Rings {
 
     /// A place in a patch of sector `s`, its size as in ring 0.
     #[inline]
-    fn eval_in_patch<A: Answer>(&self, ring: usize, s: usize, place: PatchParameters) -> A {
+    fn eval_in_patch<A: Answer<N>>(&self, ring: usize, s: usize, place: PatchParameters) -> A {
         let PatchParameters { which, at, size } = place;
         self.with_coefs(ring, s, which, |scale, coefs| {
             let jet = patch_jet(A::ORDER, self.rules.rules.degree, coefs, at);
@@ -374,14 +431,14 @@ impl Rings {
         ring: usize,
         s: usize,
         which: usize,
-        f: impl FnOnce(&RingScale, &[Vector]) -> T,
+        f: impl FnOnce(&RingScale<N>, &[[f64; N]]) -> T,
     ) -> T {
         let rules = &self.rules.rules;
         if ring >= CACHED_RINGS {
             return self.with_ring(ring, |net, r| f(&r.scale, &self.coefs(net, r, s, which)));
         }
         let r = self.cached_ring(ring);
-        let all = || -> Box<[Vector]> {
+        let all = || -> Box<[[f64; N]]> {
             let net = self.net_in_front(ring);
             (0..self.patches_per_sector()).flat_map(|k| self.coefs(net, r, s, k)).collect()
         };
@@ -390,8 +447,8 @@ impl Rings {
         f(&r.scale, &coefs[which * per_patch..][..per_patch])
     }
 
-    fn at_center<A: Answer>(&self) -> A {
-        let jet = Jet { p: self.center, ..Answer::NAN };
+    fn at_center<A: Answer<N>>(&self) -> A {
+        let jet = Jet { p: self.center, ..<Jet<N> as Answer<N>>::NAN };
         A::from_parts(jet, |_| {
             let (gauss, mean) = self.center_curvature().unwrap_or((f64::NAN, f64::NAN));
             Shape { normal: self.normal(), gauss, mean }
@@ -408,16 +465,17 @@ impl Rings {
     pub fn center_curvature(&self) -> Option<(f64, f64)> {
         let [du, dv, uu, duv, vv] = self.expansion().filter(|_| self.frame.has_plane)?;
         let jet = Jet { p: self.center, du, dv, duu: scale(2.0, uu), duv, dvv: scale(2.0, vv) };
-        Some(jet.curvature())
+        let Shape { gauss, mean, .. } = jet.shape();
+        Some((gauss, mean))
     }
 
     /// The expansion of q or of the guide in sector 0, in world coordinates.
-    fn expansion(&self) -> Option<Expansion> {
+    fn expansion(&self) -> Option<Expansion<N>> {
         if self.rules.rules.guide.is_none() {
             return self.quadratic.map(|q| q.expansion());
         }
         let first = self.rules.rules.control_nodes_per_sector();
-        let world = |k: usize| self.frame.world(1.0, 1.0, self.first[first + k]);
+        let world = |k: usize| self.frame.world(self.first[first + k]);
         Some([0, 1, 2, 3, 4].map(world))
     }
 
@@ -427,13 +485,13 @@ impl Rings {
     }
 
     /// The net in front of ring `ring`, in the frame and scaled as that ring.
-    pub(crate) fn net(&self, ring: usize) -> Vec<Vector> {
+    pub(crate) fn net(&self, ring: usize) -> Vec<[f64; N]> {
         self.with_ring(ring, |net, _| net.to_vec())
     }
 
     /// All patches of ring `ring` in the frame, scaled as that ring.
-    pub(crate) fn frame_patches(&self, ring: usize) -> Vec<Patch> {
-        let all = |net: &[Vector], r: &Ring| {
+    pub(crate) fn frame_patches(&self, ring: usize) -> Vec<Patch<N>> {
+        let all = |net: &[[f64; N]], r: &Ring<N>| {
             let per_sector = self.patches_per_sector();
             let numbers = 0..per_sector * self.valence();
             let patch = |k: usize| self.frame_patch(net, r, k / per_sector, k % per_sector);
@@ -443,12 +501,12 @@ impl Rings {
     }
 
     /// Patch `which` of sector `s` of the ring behind `net`.
-    fn frame_patch(&self, net: &[Vector], ring: &Ring, s: usize, which: usize) -> Patch {
+    fn frame_patch(&self, net: &[[f64; N]], ring: &Ring<N>, s: usize, which: usize) -> Patch<N> {
         Patch::new([self.rules.rules.degree; 2], self.coefs(net, ring, s, which))
     }
 
     /// The BB coefficients of patch `which` of sector `s` of the ring behind `net`.
-    fn coefs(&self, net: &[Vector], ring: &Ring, s: usize, which: usize) -> Vec<Vector> {
+    fn coefs(&self, net: &[[f64; N]], ring: &Ring<N>, s: usize, which: usize) -> Vec<[f64; N]> {
         // Both nets in the scale of `net`.
         let next = (&ring.next[..], self.shrinkage());
         self.rules.rules.patch_of_scaled(s, which, net, next)
@@ -456,12 +514,12 @@ impl Rings {
 
     /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
     /// in (a,b); the patch is so large in ring 0.
-    pub(crate) fn in_world<A: Answer>(&self, ring: usize, size: [f64; 2], jet: &Jet) -> A {
+    pub(crate) fn in_world<A: Answer<N>>(&self, ring: usize, size: [f64; 2], jet: &Jet<N>) -> A {
         self.placed(&self.ring_scale(ring), size, jet)
     }
 
     #[inline]
-    fn placed<A: Answer>(&self, scale: &RingScale, [u, v]: [f64; 2], jet: &Jet) -> A {
+    fn placed<A: Answer<N>>(&self, scale: &RingScale<N>, [u, v]: [f64; 2], jet: &Jet<N>) -> A {
         let RingScale { sigma, first, second, .. } = *scale;
         let mut found = Jet { p: add(self.center, scale.world(sigma, jet.p)), ..Jet::default() };
         if A::ORDER >= 1 {
@@ -475,17 +533,20 @@ impl Rings {
         }
         A::from_parts(found, |_| {
             let shape = frame_shape(jet, sigma, scale.zeta);
-            Shape { normal: self.frame.world(1.0, 1.0, shape.normal), ..shape }
+            Shape { normal: self.frame.direction(shape.normal), ..shape }
         })
     }
 
-    fn ring_scale(&self, ring: usize) -> RingScale {
+    fn ring_scale(&self, ring: usize) -> RingScale<N> {
         let (lambda, step) = (self.lambda(), self.sigma());
         let sigma = power(lambda, ring);
-        let zeta = if self.frame.has_plane { sigma } else { 1.0 };
-        let [x, y, z] = self.frame.axes;
+        let zeta = if self.frame.has_height() { sigma } else { 1.0 };
+        let mut axes = self.frame.axes;
+        if let Some(height) = axes.get_mut(HEIGHT) {
+            *height = scale(zeta, *height);
+        }
         RingScale {
-            axes: [x, y, scale(zeta, z)],
+            axes,
             zeta,
             sigma,
             // A patch parameter runs step^-ring / size times as fast as a and b.
@@ -495,84 +556,120 @@ impl Rings {
     }
 
     /// A patch of ring `ring` in world coordinates.
-    pub(crate) fn to_world(&self, ring: usize, patch: &Patch) -> Patch {
+    pub(crate) fn to_world(&self, ring: usize, patch: &Patch<N>) -> Patch<N> {
         let scale = self.ring_scale(ring);
-        let point = |&r: &Vector| add(self.center, scale.world(scale.sigma, r));
+        let point = |&r: &[f64; N]| add(self.center, scale.world(scale.sigma, r));
         Patch::new(patch.degree(), patch.coefs().iter().map(point).collect())
     }
 
     /// Calls `f` with the net in front of ring `ring` and the ring.
-    fn with_ring<T>(&self, ring: usize, f: impl FnOnce(&[Vector], &Ring) -> T) -> T {
+    fn with_ring<T>(&self, ring: usize, f: impl FnOnce(&[[f64; N]], &Ring<N>) -> T) -> T {
         if ring < CACHED_RINGS {
             return f(self.net_in_front(ring), self.cached_ring(ring));
         }
         let mut net = self.cached_ring(CACHED_RINGS - 1).next.clone();
         for _ in CACHED_RINGS..ring {
-            net = self.normalised(&self.rules.rules.refine(&net));
+            net = self.normalised(self.rules.rules.refine(&net));
         }
         f(&net, &self.ring_from(ring, &net))
     }
 
     /// The net in front of a ring that is kept.
-    fn net_in_front(&self, ring: usize) -> &[Vector] {
+    fn net_in_front(&self, ring: usize) -> &[[f64; N]] {
         if ring == 0 { &self.first } else { &self.cached_ring(ring - 1).next }
     }
 
     #[inline]
-    fn cached_ring(&self, ring: usize) -> &Ring {
+    fn cached_ring(&self, ring: usize) -> &Ring<N> {
         self.cached[ring].get_or_init(|| Box::new(self.ring_from(ring, self.net_in_front(ring))))
     }
 
     /// The ring behind `net`, and the net behind it.
-    fn ring_from(&self, ring: usize, net: &[Vector]) -> Ring {
-        let next = self.normalised(&self.rules.rules.refine(net));
+    fn ring_from(&self, ring: usize, net: &[[f64; N]]) -> Ring<N> {
+        let next = self.normalised(self.rules.rules.refine(net));
         let sectors = std::iter::repeat_with(OnceLock::new).take(self.valence()).collect();
         Ring { sectors, next, scale: self.ring_scale(ring) }
     }
 
     /// The factors by which the coordinates of a net become smaller from ring to ring.
-    fn shrinkage(&self) -> Vector {
+    fn shrinkage(&self) -> [f64; N] {
         let lambda = self.lambda();
-        [lambda, lambda, if self.frame.has_plane { lambda * lambda } else { lambda }]
+        let mut factors = [lambda; N];
+        if self.frame.has_height() {
+            factors[HEIGHT] = lambda * lambda;
+        }
+        factors
     }
 
     /// A refined net in its own scale.
-    fn normalised(&self, net: &[Vector]) -> Vec<Vector> {
-        let [x, y, z] = self.shrinkage();
-        let mut net: Vec<Vector> = net.iter().map(|p| [p[0] / x, p[1] / y, p[2] / z]).collect();
-        if self.frame.has_plane {
-            self.rules.subdominant.remove_from_coordinate(2, &mut net);
+    fn normalised(&self, mut net: Vec<[f64; N]>) -> Vec<[f64; N]> {
+        let factors = self.shrinkage();
+        for p in &mut net {
+            for k in 0..N {
+                p[k] /= factors[k];
+            }
+        }
+        if self.frame.has_height() {
+            self.rules.subdominant.remove_from_coordinate(HEIGHT, &mut net);
         }
         net
     }
 }
 
-impl Frame {
+impl<const N: usize> Frame<N> {
     /// The frame of the limit tangent plane of a net.
-    fn new(subdominant: &Subdominant, net: &[Vector]) -> Self {
-        let [a, b] = subdominant.tangents(net);
+    fn new(subdominant: &Subdominant, net: &[[f64; N]]) -> Self {
+        let [a, b] = subdominant.tangents(net).map(in_space);
         let normal = cross(b, a);
         let longer = dot(a, a).max(dot(b, b));
-        let size_sq = net.iter().map(|&p| dot(p, p)).fold(0.0, f64::max);
+        let size_sq = net.iter().map(|&p| in_space(p)).map(|p| dot(p, p)).fold(0.0, f64::max);
         let has_plane = longer > FLATTEST * FLATTEST * size_sq && norm(normal) > FLATTEST * longer;
-        if !has_plane {
-            let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            return Self { axes, has_plane };
+        let mut axes = [[0.0; N]; N];
+        for (k, axis) in axes.iter_mut().enumerate() {
+            axis[k] = 1.0;
         }
-        let normal = unit(normal);
-        let first = unit(if dot(a, a) > dot(b, b) { a } else { b });
-        Self { axes: [first, cross(normal, first), normal], has_plane }
+        if has_plane {
+            let normal = unit(normal);
+            let first = unit(if dot(a, a) > dot(b, b) { a } else { b });
+            for (axis, turned) in axes.iter_mut().zip([first, cross(normal, first), normal]) {
+                axis.iter_mut().zip(turned).for_each(|(x, y)| *x = y);
+            }
+        }
+        Self { axes, has_plane }
     }
 
-    fn coordinates(&self, p: Vector) -> Vector {
+    /// Whether one of the numbers is a height over a tangent plane.
+    fn has_height(&self) -> bool {
+        self.has_plane && N > HEIGHT
+    }
+
+    /// The normal of the tangent plane, or NaN.
+    fn normal(&self) -> Vector {
+        match self.axes.get(HEIGHT) {
+            Some(&axis) if self.has_plane => in_space(axis),
+            _ => [f64::NAN; 3],
+        }
+    }
+
+    fn coordinates(&self, p: [f64; N]) -> [f64; N] {
         self.axes.map(|axis| dot(axis, p))
     }
 
-    /// factor F (X, Y, zeta Z).
-    fn world(&self, factor: f64, zeta: f64, r: Vector) -> Vector {
-        let mut p = scale(factor * r[0], self.axes[0]);
-        add_scaled(&mut p, factor * r[1], self.axes[1]);
-        add_scaled(&mut p, factor * zeta * r[2], self.axes[2]);
+    /// F r, without any factor.
+    fn world(&self, r: [f64; N]) -> [f64; N] {
+        let mut p = scale(r[0], self.axes[0]);
+        for k in 1..N {
+            add_scaled(&mut p, r[k], self.axes[k]);
+        }
+        p
+    }
+
+    /// A direction of the first three coordinates.
+    fn direction(&self, r: Vector) -> Vector {
+        let mut p = scale(r[0], in_space(self.axes[0]));
+        for k in 1..N.min(3) {
+            add_scaled(&mut p, r[k], in_space(self.axes[k]));
+        }
         p
     }
 }
@@ -589,11 +686,12 @@ impl Frame {
 /// ```
 ///
 /// Nothing in it becomes small when sigma = zeta does.
-fn frame_shape(jet: &Jet, sigma: f64, zeta: f64) -> Shape {
+fn frame_shape<const N: usize>(jet: &Jet<N>, sigma: f64, zeta: f64) -> Shape {
     let flat = |r: Vector| [r[0], r[1], zeta * r[2]];
-    let volume = cross(jet.du, jet.dv);
-    let determinants = [jet.duu, jet.duv, jet.dvv].map(|r| dot(volume, r));
-    let shape = Shape::new(flat(jet.du), flat(jet.dv), determinants);
+    let [du, dv] = [jet.du, jet.dv].map(in_space);
+    let volume = cross(du, dv);
+    let determinants = [jet.duu, jet.duv, jet.dvv].map(|r| dot(volume, in_space(r)));
+    let shape = Shape::new(flat(du), flat(dv), determinants);
     let ratio = if zeta == sigma { 1.0 } else { zeta / sigma };
     Shape { gauss: ratio * ratio * shape.gauss, mean: ratio * shape.mean, ..shape }
 }

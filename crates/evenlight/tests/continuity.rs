@@ -52,7 +52,7 @@ fn rings_join_c2_at_any_depth() {
     let cage = common::cage("obstacle/saddle_n7.obj");
     for scheme in SchemeKind::ALL {
         let surface = common::surface(&cage, scheme);
-        let rings = surface.rings(0);
+        let rings = surface.rings(0).unwrap();
         for ring in 1..40 {
             let h = 0.5_f64.powi(ring);
             // The border between ring `ring - 1` and `ring`: a = h, b from 0 to h.

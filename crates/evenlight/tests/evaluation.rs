@@ -134,7 +134,7 @@ fn centred(name: &str, scheme: SchemeKind) -> Surface {
     let mut mesh = common::mesh(name);
     for _ in 0..3 {
         let surface = common::surface(&Arc::new(Cage::new(mesh.clone()).unwrap()), scheme);
-        let center = surface.extraordinary_points()[0].position;
+        let center = surface.rings(0).unwrap().center();
         mesh.positions.iter_mut().for_each(|p| *p = sub(*p, center));
     }
     common::surface(&Arc::new(Cage::new(mesh).unwrap()), scheme)
@@ -169,7 +169,7 @@ fn derivatives_agree_with_finite_differences_in_rings_1_to_20() {
                 let h = 0.5_f64.powi(ring);
                 for _ in 0..20 {
                     // Inside one of the patches, so that the stencil stays in it.
-                    let rings = surface.rings(0);
+                    let rings = surface.rings(0).unwrap();
                     let domain = rings.patch_domain(random.below(rings.patches_per_sector()));
                     let [a, b] = domain
                         .map(|[from, to]| h * (from + (to - from) * (0.3 + 0.4 * random.unit())));
@@ -219,18 +219,19 @@ fn the_limit_at_the_extraordinary_point_is_the_limit_of_the_surface() {
         for scheme in SchemeKind::ALL {
             let surface = common::surface(&common::cage(name), scheme);
             for (index, point) in surface.extraordinary_points().iter().enumerate() {
-                let lambda = surface.rings(index).lambda();
+                let rings = surface.rings(index).unwrap();
+                let lambda = rings.lambda();
                 for sector in &point.sectors {
                     let center = at(&surface, sector, 0.0, 0.0);
-                    assert_eq!(center.jet.p, point.position);
-                    assert_eq!(center.normal, point.normal);
+                    assert_eq!(center.jet.p, rings.center());
+                    assert_eq!(center.normal, rings.normal());
                     assert!(center.jet.du[0].is_nan());
                     assert_eq!(center.gauss.is_nan(), !scheme.has_center_curvature());
                     // Distance falls like lambda per ring, the angle of normals likewise (times
                     // (mu / lambda^2) per ring, at most 1.33 here).
                     let near = at(&surface, sector, 0.5_f64.powi(30), 0.3 * 0.5_f64.powi(30));
-                    assert!(distance(near.jet.p, point.position) < 20.0 * lambda.powi(30));
-                    assert!(1.0 - dot(near.normal, point.normal) < 1e-6, "{name}");
+                    assert!(distance(near.jet.p, rings.center()) < 20.0 * lambda.powi(30));
+                    assert!(1.0 - dot(near.normal, rings.normal()) < 1e-6, "{name}");
                 }
             }
         }
@@ -249,7 +250,7 @@ fn the_deepest_parameters_have_a_position_and_a_normal() {
         assert!(p.gauss.is_finite() && p.mean.is_finite(), "2^-{exponent}");
     }
     let p = at(&surface, sector, 5e-324, 0.0);
-    assert!(distance(p.jet.p, point.position) < 1e-15 && p.gauss.is_finite());
+    assert!(distance(p.jet.p, surface.rings(0).unwrap().center()) < 1e-15 && p.gauss.is_finite());
 }
 
 /// H of Catmull-Clark grows by mu / lambda^2 per ring in the end, mu the eigenvalue of Fourier

@@ -186,7 +186,7 @@ fn the_order_of_n_gons_and_their_corners_does_not_matter() {
     for scheme in SchemeKind::ALL {
         let (a, b) = (build(mesh.clone(), scheme), build(turned.clone(), scheme));
         for (quad, u, v) in samples(&a, 500) {
-            let (face, k) = a.face_of(quad);
+            let (face, k) = a.face_of(quad).unwrap();
             let corners = faces[face.index()].len();
             let other = evenlight::FaceId((count - 1 - face.index()) as u32);
             let (corner, s, t) =

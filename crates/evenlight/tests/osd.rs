@@ -180,7 +180,7 @@ fn may_be_irregular(
     u: f64,
     v: f64,
 ) -> bool {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let corners = topology.faces().corners(FaceId(face));
     let k = match (u > 0.5, v > 0.5) {
         (false, false) => 0,
@@ -198,7 +198,7 @@ fn may_be_irregular(
         // The middle of an edge.
         (false, _) => return false,
     };
-    let tags = surface.cage().tags();
+    let tags = surface.tags();
     let is_quad = |f: FaceId| topology.faces().corners(f).len() == 4;
     topology.is_boundary(vertex)
         || topology.valence(vertex) != 4
@@ -223,8 +223,8 @@ fn texture_difference(mesh: &Mesh, expected: &Expected, rule: FaceVaryingRule) -
     let surface = Surface::build(cage, options(SchemeKind::CatmullClark)).unwrap();
     let st = surface.primvars().iter().position(|primvar| primvar.name == "st").unwrap();
     compare(Of::Channel, &surface, expected, |quad, u, v| {
-        let jet = surface.eval_primvar(st, quad, u, v)?;
-        Some([jet.value, jet.du, jet.dv].map(|x| x[..2].to_vec()))
+        let jet = surface.eval_primvar::<2>(st, quad, u, v)?;
+        Some([jet.p, jet.du, jet.dv].map(|x| x[..2].to_vec()))
     })
 }
 

@@ -67,8 +67,8 @@ fn positions_as_a_channel_are_the_surface() {
             for (quad, u, v) in places(&surface) {
                 let jet = surface.eval(quad, u, v).unwrap().jet;
                 for (k, channel) in surface.primvars().iter().enumerate() {
-                    let found = surface.eval_primvar(k, quad, u, v).unwrap();
-                    let rows = [found.value, found.du, found.dv, found.duu, found.duv, found.dvv];
+                    let found = surface.eval_primvar::<4>(k, quad, u, v).unwrap();
+                    let rows = [found.p, found.du, found.dv, found.duu, found.duv, found.dvv];
                     for (order, (own, [x, y, z])) in rows.iter().zip(jet.rows()).enumerate() {
                         let expected = [x, y, z, x + y];
                         // Second derivatives grow towards extraordinary points.
@@ -95,7 +95,7 @@ fn channels_have_the_caps_of_the_surface() {
     let point = surface.extraordinary_points()[0].sectors[0];
     let [u, v] = [0, 1].map(|k| point.center[k] + 0.01 * (point.along[0][k] + point.along[1][k]));
     let value = |surface: &Surface| {
-        let value = surface.eval_primvar(0, point.quad, u, v).unwrap().value;
+        let value = surface.eval_primvar::<4>(0, point.quad, u, v).unwrap().p;
         let position = surface.eval(point.quad, u, v).unwrap().jet.p;
         assert!(agree(&value[..3], &position, 1e-11), "{value:?}, not {position:?}");
         value
@@ -139,8 +139,8 @@ fn a_constant_channel_is_constant() {
         mesh.primvars[0].values.fill(3.0);
         let surface = Surface::build(Cage::new(mesh).unwrap(), options(SchemeKind::Qas4)).unwrap();
         for (quad, u, v) in places(&surface).into_iter().filter(|&(_, u, v)| u + v > 0.0) {
-            let jet = surface.eval_primvar(0, quad, u, v).unwrap();
-            assert!(agree(&jet.value[..2], &[3.0; 2], 1e-13), "{name}, {rule:?}: {jet:?}");
+            let jet = surface.eval_primvar::<4>(0, quad, u, v).unwrap();
+            assert!(agree(&jet.p[..2], &[3.0; 2], 1e-13), "{name}, {rule:?}: {jet:?}");
             let derivatives = [jet.du, jet.dv].concat();
             assert!(agree(&derivatives, &[0.0; 8], 1e-12), "{name}, {rule:?}: {jet:?}");
         }
@@ -156,7 +156,7 @@ fn linear_channels_pass_through_their_values() {
         let values = coordinates(&mesh, 3);
         mesh.primvars.push(primvar(Interpolation::Varying, 3, values, &mesh));
         let surface = Surface::build(Cage::new(mesh).unwrap(), options(SchemeKind::Qas4)).unwrap();
-        let faces = surface.cage().topology().faces();
+        let faces = surface.topology().faces();
         for face in faces.ids() {
             for (k, v) in faces.corners(face).iter().enumerate() {
                 let is_quad = faces.corners(face).len() == 4;
@@ -166,9 +166,9 @@ fn linear_channels_pass_through_their_values() {
                 let corner: usize =
                     faces.ids().take(face.index()).map(|f| faces.corners(f).len()).sum();
                 let value = &st.values[2 * st.indices[corner + k] as usize..][..2];
-                assert_eq!(surface.eval_primvar(0, quad, a, b).unwrap().value[..2], *value);
-                let position = surface.cage().positions()[v.index()];
-                assert_eq!(surface.eval_primvar(1, quad, a, b).unwrap().value[..3], position);
+                assert_eq!(surface.eval_primvar::<4>(0, quad, a, b).unwrap().p[..2], *value);
+                let position = surface.positions()[v.index()];
+                assert_eq!(surface.eval_primvar::<4>(1, quad, a, b).unwrap().p[..3], position);
             }
         }
     }
@@ -179,10 +179,10 @@ fn what_is_not_there_has_no_value() {
     let mesh = feature("uv_dart.obj", FaceVaryingRule::None);
     let surface = Surface::build(Cage::new(mesh).unwrap(), options(SchemeKind::Qas4)).unwrap();
     let quad = QuadId(0);
-    assert!(surface.eval_primvar(0, quad, 0.5, 0.5).is_some());
-    assert_eq!(surface.eval_primvar(1, quad, 0.5, 0.5), None);
-    assert_eq!(surface.eval_primvar(0, QuadId(4), 0.5, 0.5), None);
-    assert_eq!(surface.eval_primvar(0, quad, f64::NAN, 0.5), None);
+    assert!(surface.eval_primvar::<4>(0, quad, 0.5, 0.5).is_some());
+    assert_eq!(surface.eval_primvar::<4>(1, quad, 0.5, 0.5), None);
+    assert_eq!(surface.eval_primvar::<4>(0, QuadId(4), 0.5, 0.5), None);
+    assert_eq!(surface.eval_primvar::<4>(0, quad, f64::NAN, 0.5), None);
 }
 
 /// Triangles share values where the channel is continuous: the unfolded cube has seams along 7 of

@@ -9,8 +9,9 @@ use std::collections::{HashMap, HashSet};
 use evenlight::io::{glb, obj, obj_out, ply, ply_out};
 use evenlight::mesh::{Crease, FaceVaryingRule, INFINITELY_SHARP, Interpolation, Mesh, Primvar};
 use evenlight::point::{cross, dot, norm, sub, unit};
+use evenlight::task::Task;
 use evenlight::tessellate::{CornerChannels, TriangleMesh, tessellate};
-use evenlight::{Cage, SchemeKind, Surface, VertexId};
+use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions, VertexId};
 
 /// Every cage in data/meshes/features, which together have every kind of feature.
 fn features() -> impl Iterator<Item = (String, Surface)> {
@@ -87,7 +88,7 @@ fn smooth_cages_have_one_side_per_vertex() {
 fn there_are_no_more_sides_than_infinitely_sharp_edges_make() {
     let mut num_folded = 0;
     for (name, surface) in features() {
-        let creases = &surface.cage().tags().creases;
+        let creases = &surface.tags().creases;
         let has_infinite = creases.iter().any(|crease| crease.sharpness >= INFINITELY_SHARP);
         let mesh = tessellate(&surface, 2).unwrap();
         assert!(has_infinite || !mesh.is_folded(), "{name}");
@@ -150,8 +151,8 @@ fn sides_change_at_sharp_edges_only() {
 fn lies_on_sharp_edge(surface: &Surface, mesh: &TriangleMesh, edge: [u32; 2], t: usize) -> bool {
     let place = mesh.parametric_triangle(t);
     let uv = edge.map(|v| place.uv[mesh.triangles[t].iter().position(|&w| w == v).unwrap()]);
-    let (face, corner) = surface.face_of(place.quad);
-    let topology = surface.cage().topology();
+    let (face, corner) = surface.face_of(place.quad).unwrap();
+    let topology = surface.topology();
     let n = topology.faces().corners(face).len();
     let side = match uv {
         [[_, 0.0], [_, 0.0]] => corner,
@@ -480,16 +481,34 @@ fn normals_of_sides_look_outward() {
     }
 }
 
-#[cfg(feature = "parallel")]
 #[test]
 fn the_number_of_threads_does_not_change_a_byte() {
     let surface = surface(painted_cube());
     let bytes = [1, 2, 5].map(|num_threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
-        pool.install(|| {
+        Task::new().threads(num_threads).run(|| {
             let mesh = tessellate(&surface, 7).unwrap();
             glb_bytes(&mesh, &mesh.corner_channels(&surface))
         })
     });
     assert!(bytes[0] == bytes[1] && bytes[1] == bytes[2]);
+}
+
+/// Topology tells where a seam is: values may be as near to each other as they like, measured by
+/// what else there is.
+#[test]
+fn a_seam_of_a_quarter_beside_a_distant_island_remains() {
+    // Two quads with a seam between them, a quarter wide, and a third quad far away in u.
+    let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n\
+                v 4 0 0\nv 5 0 0\nv 5 1 0\nv 4 1 0\n\
+                vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
+                vt 1.25 0\nvt 2.25 0\nvt 2.25 1\nvt 1.25 1\n\
+                vt 3e8 0\nvt 300000001 0\nvt 300000001 1\nvt 3e8 1\n\
+                f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/7 5/8\nf 7/9 8/10 9/11 10/12\n";
+    let (cage, _) = obj::read_cage(text.as_bytes()).unwrap();
+    let surface = Surface::build(cage, SurfaceOptions::default()).unwrap();
+    let mesh = tessellate(&surface, 4).unwrap();
+    let channels = mesh.corner_channels(&surface);
+    let split = mesh.split(&[&channels.uv_sets[0]]);
+    assert_eq!(mesh.positions.len(), 2 * 25 - 5 + 25);
+    assert_eq!(split.sides.len(), 3 * 25, "the five vertices on the seam are two each");
 }

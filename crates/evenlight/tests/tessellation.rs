@@ -8,6 +8,7 @@ use std::collections::{HashMap, HashSet};
 
 use evenlight::mesh::{Mesh, Topology};
 use evenlight::point::{Point, cross, dot, norm, sub, unit};
+use evenlight::task::Task;
 use evenlight::tessellate::{ParametricTriangle, TessellateError, TriangleMesh, tessellate};
 use evenlight::{Cage, FaceId, SchemeKind, Surface, VertexId};
 
@@ -107,7 +108,7 @@ fn closed_cages_give_closed_meshes_of_the_same_genus() {
             assert!(edges.keys().all(|&(a, b)| edges.contains_key(&(b, a))), "{name}: a gap");
             let chi =
                 mesh.positions.len() as i64 - edges.len() as i64 / 2 + mesh.triangles.len() as i64;
-            assert_eq!(chi, euler_characteristic(surface.cage().topology()), "{name}, rate {rate}");
+            assert_eq!(chi, euler_characteristic(surface.topology()), "{name}, rate {rate}");
         }
     }
 }
@@ -194,21 +195,21 @@ fn beside_omitted_face(
         ([0.0, _], [0.0, _]) => 3,
         _ => return false,
     };
-    let (face, corner) = surface.face_of(quad);
-    let num_corners = surface.cage().topology().faces().corners(face).len();
+    let (face, corner) = surface.face_of(quad).unwrap();
+    let num_corners = surface.topology().faces().corners(face).len();
     let is_inside_ngon = num_corners != 4 && (side == 1 || side == 2);
     let side = if side == 3 { corner + num_corners - 1 } else { corner + side };
     !is_inside_ngon && has_surface_on_one_side(surface, face, side % num_corners)
 }
 
 fn has_surface_on_one_side(surface: &Surface, face: FaceId, side: usize) -> bool {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let behind = topology.twin(topology.half_edge(face, side)).map(|h| topology.face(h));
     !surface.is_omitted(face) && behind.is_none_or(|f| surface.is_omitted(f))
 }
 
 fn num_edges_beside_omitted_faces(surface: &Surface) -> usize {
-    let faces = surface.cage().topology().faces();
+    let faces = surface.topology().faces();
     let sides = |f| (0..faces.corners(f).len()).map(move |side| (f, side));
     faces.ids().flat_map(sides).filter(|&(f, k)| has_surface_on_one_side(surface, f, k)).count()
 }
@@ -260,8 +261,10 @@ fn vertices_of_valence_2_have_a_normal_too() {
     let faces = split.into_iter().chain(faces.into_iter().skip(1));
     let mesh = Mesh::new(mesh.positions, faces);
     let surface = surface(mesh, SchemeKind::CatmullClark);
-    let valence_2 = surface.extraordinary_points().iter().filter(|p| p.valence == 2);
-    assert!(valence_2.clone().count() == 2 && valence_2.clone().all(|p| p.normal[0].is_nan()));
+    let points = surface.extraordinary_points().iter().enumerate();
+    let valence_2: Vec<usize> = points.filter(|(_, p)| p.valence == 2).map(|(k, _)| k).collect();
+    assert_eq!(valence_2.len(), 2);
+    assert!(valence_2.iter().all(|&k| surface.rings(k).unwrap().normal()[0].is_nan()));
     for rate in [1, 4] {
         let triangles = tessellate(&surface, rate).unwrap();
         assert!(triangles.normals.iter().all(|&n| (norm(n) - 1.0).abs() < 1e-14));
@@ -308,10 +311,11 @@ fn no_edge_is_one_of_four_triangles_at_valence_2() {
 fn extraordinary_points_are_vertices_with_the_limit_normal() {
     for (name, surface) in closed_surfaces() {
         let mesh = tessellate(&surface, 5).unwrap();
-        for point in surface.extraordinary_points() {
-            let vertex = mesh.positions.iter().position(|&p| p == point.position);
+        for (k, point) in surface.extraordinary_points().iter().enumerate() {
+            let rings = surface.rings(k).unwrap();
+            let vertex = mesh.positions.iter().position(|&p| p == rings.center());
             let vertex = vertex.unwrap_or_else(|| panic!("{name}: no vertex at {point:?}"));
-            assert_eq!(mesh.normals[vertex], point.normal, "{name}");
+            assert_eq!(mesh.normals[vertex], rings.normal(), "{name}");
         }
     }
 }
@@ -343,7 +347,7 @@ fn total_curvature_is_that_of_the_topology() {
                 k / 3.0 * norm(cross(sub(b, a), sub(c, a))) / 2.0
             })
             .sum();
-        let chi = euler_characteristic(surface.cage().topology()) as f64;
+        let chi = euler_characteristic(surface.topology()) as f64;
         let error = total / (2.0 * std::f64::consts::PI) - chi;
         assert!(error.abs() < 0.02 * chi.abs().max(1.0), "{name}: error {error}, chi {chi}");
     }
@@ -366,14 +370,12 @@ fn impossible_rates_are_errors() {
     }
 }
 
-#[cfg(feature = "parallel")]
 #[test]
 fn the_number_of_threads_does_not_change_a_byte() {
     let surface = surface(obstacle("frame_cube_n6"), SchemeKind::EvolvingGuide);
     let bytes = [1, 2, 5].map(|num_threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
         let mut bytes = Vec::new();
-        let mesh = pool.install(|| tessellate(&surface, 7)).unwrap();
+        let mesh = Task::new().threads(num_threads).run(|| tessellate(&surface, 7)).unwrap();
         evenlight::io::ply_out::write(&mesh, &mut bytes).unwrap();
         bytes
     });

@@ -20,7 +20,7 @@ use evenlight::io::obj;
 use evenlight::tessellate::tessellate;
 use evenlight::{Cage, Mesh, QuadId, SchemeKind, Surface, SurfaceOptions};
 
-use super::studded_torus;
+use super::{LARGE, Studs, studded_torus};
 
 const RUNS: usize = 7;
 const SAMPLES: usize = 500_000;
@@ -49,7 +49,11 @@ pub fn run(cages: &[PathBuf]) -> Result<(), Box<dyn Error>> {
     if cages.is_empty() {
         let blob = crate::workspace("data/meshes/own_blob_quadriflow_1500.obj");
         compare("own_blob_quadriflow_1500", &program, read(&blob)?)?;
-        return compare("studded torus", &program, studded_torus([5, 10]));
+        return compare(
+            "studded torus",
+            &program,
+            studded_torus(Studs { cells: [5, 10], ..LARGE }),
+        );
     }
     for path in cages {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -143,8 +143,8 @@ impl PointRecord {
             mean: r.mean.into(),
         };
         Self {
-            vertex: place.vertex.map(|v| v.0),
-            face: place.face.map(|f| f.0),
+            vertex: place.vertex().map(|v| v.0),
+            face: place.face().map(|f| f.0),
             valence: place.valence,
             level: place.level,
             gauss: report.total.gauss.into(),

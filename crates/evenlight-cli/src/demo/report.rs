@@ -75,7 +75,7 @@ fn pictures(steps: &[Step]) -> String {
 
 fn curvature(subject: &Subject, close_ups: &[CloseUp]) -> String {
     let is_shown = |_: usize, p: &ExtraordinaryPoint| {
-        p.vertex.is_some_and(|v| close_ups.iter().any(|close_up| close_up.vertex == v.0))
+        p.vertex().is_some_and(|v| close_ups.iter().any(|close_up| close_up.vertex == v.0))
     };
     let points = point_table(&subject.analyses, is_shown).markdown();
     let jumps = jump_table(&subject.analyses).markdown();

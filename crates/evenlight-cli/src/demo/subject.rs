@@ -4,7 +4,8 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use evenlight::point::{dot, norm, scale, sub};
-use evenlight::surface::{ExtraordinaryPoint, Sector};
+use evenlight::rings::Rings;
+use evenlight::surface::Sector;
 use evenlight::{Cage, Point, SchemeKind, Surface, SurfaceOptions, Vector};
 
 use serde_json::json;
@@ -102,13 +103,14 @@ impl Subject {
     fn close_up(&self, valence: usize) -> Option<CloseUp> {
         let points =
             self.surface().extraordinary_points().iter().zip(self.analyses[0].last_spans());
-        let candidates = points.filter_map(|(p, span)| Some((p, p.vertex?, span)));
+        let candidates = points.filter_map(|(p, span)| Some((p, p.vertex()?, span)));
         let of_valence = candidates.filter(|(p, ..)| p.valence == valence);
         // The first of those that are equal but for rounding, as in a symmetric cage.
         let better = |best: f64, span: f64| span > best * (1.0 + 1e-6);
         let (point, vertex, _) =
             of_valence.reduce(|best, other| if better(best.2, other.2) { other } else { best })?;
-        let zoom = zoom(self.surface(), point);
+        let k = self.surface().extraordinary_points().iter().position(|p| p == point)?;
+        let zoom = zoom(self.surface(), k);
         Some(CloseUp { vertex: vertex.0, valence, zoom })
     }
 
@@ -118,7 +120,7 @@ impl Subject {
         let mut text = String::from("face,u,v,corner\n");
         for CloseUp { vertex, valence, .. } in close_ups {
             let points = self.surface().extraordinary_points();
-            let point = points.iter().find(|p| p.vertex.is_some_and(|v| v.0 == *vertex));
+            let point = points.iter().find(|p| p.vertex().is_some_and(|v| v.0 == *vertex));
             if let Some(sector) = point.and_then(|p| p.sectors.first()) {
                 text += &format!("# towards vertex {vertex} of valence {valence}\n");
                 text += &diagonal(self.surface(), sector);
@@ -130,28 +132,30 @@ impl Subject {
     /// The vertex of the highest valence whose normal points most to the eye of the default view.
     pub fn handle(&self) -> Option<Handle> {
         let points = self.surface().extraordinary_points().iter().enumerate();
-        let facing = |p: &ExtraordinaryPoint| dot(p.normal, EYE);
-        let better = |a: &ExtraordinaryPoint, b: &ExtraordinaryPoint| {
-            b.valence > a.valence || (b.valence == a.valence && facing(b) > facing(a))
-        };
-        let vertices = points.filter(|(_, p)| p.vertex.is_some());
-        let (k, point) = vertices.reduce(|a, b| if better(a.1, b.1) { b } else { a })?;
-        let q = self.surface().rings(k).quadratic()?;
+        let vertices = points.filter(|(_, p)| p.vertex().is_some());
+        let with_rings = vertices.filter_map(|(k, p)| Some((k, p, self.surface().rings(k)?)));
+        let facing = |rings: &Rings| dot(rings.normal(), EYE);
+        let (k, point, rings) = with_rings.reduce(|a, b| {
+            let is_level = b.1.valence == a.1.valence;
+            let is_better = b.1.valence > a.1.valence || is_level && facing(b.2) > facing(a.2);
+            if is_better { b } else { a }
+        })?;
+        let q = rings.quadratic()?;
         let depth = DEPTH * norm(sub(q.coefs[2], q.center()));
         Some(Handle {
-            vertex: point.vertex?.0,
+            vertex: point.vertex()?.0,
             valence: point.valence,
-            position: point.position,
-            zoom: zoom(self.surface(), point),
+            position: rings.center(),
+            zoom: zoom(self.surface(), k),
             largest_mean: (10.0 * self.analyses[2].largest_mean(k)).ceil() / 10.0,
-            push: scale(-depth, point.normal),
+            push: scale(-depth, rings.normal()),
         })
     }
 }
 
 fn diagonal(surface: &Surface, sector: &Sector) -> String {
-    let (face, corner) = surface.face_of(sector.quad);
-    let is_quad = surface.cage().topology().faces().corners(face).len() == 4;
+    let (face, corner) = surface.face_of(sector.quad).expect("sectors are in quads");
+    let is_quad = surface.topology().faces().corners(face).len() == 4;
     let corner = if is_quad { String::new() } else { corner.to_string() };
     let mut rows = String::new();
     for k in 0..=HALVINGS {
@@ -166,15 +170,17 @@ fn at(sector: &Sector, [a, b]: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| sector.center[k] + a * sector.along[0][k] + b * sector.along[1][k])
 }
 
-/// The magnification at which the sectors around `point` fill the picture, in halves.
-fn zoom(surface: &Surface, point: &ExtraordinaryPoint) -> f64 {
+/// The magnification at which the sectors around a point, by its index, fill the picture, in halves.
+fn zoom(surface: &Surface, point: usize) -> f64 {
+    let center = surface.rings(point).map_or([0.0; 3], Rings::center);
+    let point = &surface.extraordinary_points()[point];
     let ends = point.sectors.iter().flat_map(|s| [[1.0, 0.0], [1.0, 1.0]].map(|ab| (s, ab)));
     let positions = ends.filter_map(|(sector, ab)| {
         let [u, v] = at(sector, ab);
         surface.eval(sector.quad, u, v).map(|p| p.jet.p)
     });
-    let radius = positions.map(|p| norm(sub(p, point.position))).fold(0.0, f64::max);
-    let ratio = 0.5 * extent(surface.cage().positions()) / radius;
+    let radius = positions.map(|p| norm(sub(p, center))).fold(0.0, f64::max);
+    let ratio = 0.5 * extent(surface.positions()) / radius;
     ((2.0 * ratio).round() / 2.0).clamp(1.0, 100.0)
 }
 

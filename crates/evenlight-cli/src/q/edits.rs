@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use evenlight::mesh::isolation::Place;
 use evenlight::net::Quadratic;
 use evenlight::point::{dot, sub};
+use evenlight::rings::Rings;
 use evenlight::surface::PointRule;
 use evenlight::{FaceId, Surface, Vector, VertexId};
 
@@ -51,7 +52,7 @@ impl Edits {
             }
             let q = quadratic(surface, point, &entry.change).map_err(named)?;
             surface.set_quadratic(point, &q);
-            if surface.extraordinary_points()[point].normal[0].is_nan() {
+            if surface.rings(point).is_some_and(|rings| rings.normal()[0].is_nan()) {
                 let name = name(entry.place);
                 warn(format_args!(
                     "{}: entry {number}: with this q there is no tangent plane at {name}",
@@ -67,7 +68,7 @@ impl Edits {
 fn quadratic(surface: &Surface, point: usize, change: &Change) -> Result<Quadratic, String> {
     let place = &surface.extraordinary_points()[point];
     let valence = place.valence;
-    let Some(default) = surface.rings(point).quadratic() else {
+    let Some(default) = surface.rings(point).and_then(Rings::quadratic) else {
         let (rule, reason) = match place.rule {
             PointRule::CatmullClark(reason) => ("Catmull-Clark's rule", reason.to_string()),
             PointRule::FairCrease(reason) => ("the fair rule beside a crease", reason.to_string()),
@@ -101,10 +102,7 @@ fn moved(q: &Quadratic, matrix: [Vector; 3], translation: Vector) -> Quadratic {
 /// The extraordinary point at `place`, or why there is none.
 fn find(surface: &Surface, place: Place) -> Result<usize, String> {
     let points = surface.extraordinary_points();
-    let is_there = match place {
-        Place::Vertex(v) => points.iter().position(|p| p.vertex == Some(v)),
-        Place::FaceCentre(f) => points.iter().position(|p| p.face == Some(f)),
-    };
+    let is_there = points.iter().position(|p| p.place == place);
     is_there.ok_or_else(|| match place {
         Place::Vertex(v) => not_a_vertex(surface, v),
         Place::FaceCentre(f) => not_a_face(surface, f),
@@ -112,7 +110,7 @@ fn find(surface: &Surface, place: Place) -> Result<usize, String> {
 }
 
 fn not_a_vertex(surface: &Surface, vertex: VertexId) -> String {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let (v, count) = (vertex.0, topology.num_vertices());
     if vertex.index() >= count {
         return format!("there is no vertex {v}: the cage has the vertices 0 to {}", count - 1);
@@ -127,12 +125,12 @@ fn not_a_vertex(surface: &Surface, vertex: VertexId) -> String {
 }
 
 fn not_a_face(surface: &Surface, face: FaceId) -> String {
-    let cage = surface.cage();
-    let (f, count) = (face.0, cage.num_faces());
+    let faces = surface.topology().faces();
+    let (f, count) = (face.0, faces.len());
     if face.index() >= count {
         return format!("there is no face {f}: the cage has the faces 0 to {}", count - 1);
     }
-    if cage.topology().faces().corners(face).len() == 4 {
+    if faces.corners(face).len() == 4 {
         return format!("face {f} is a quad: {ONLY_EXTRAORDINARY}");
     }
     format!("face {f} is left out ({WHY_OMITTED}): take another")

@@ -9,14 +9,15 @@
 //! A table is checked before it becomes a file ([`TableDefect`]).
 
 mod eg;
+mod guided;
 mod qas;
 
 pub use eg::{EgTable, EgTitle};
+pub use guided::{GuidedTable, LISTED};
 pub use qas::{QasTable, QasTitle};
 
 use std::fmt::{self, Write};
 
-use crate::guided::table::GuidedTable;
 use crate::nets::NODES_PER_SECTOR;
 
 /// The common denominator of the tables.

@@ -78,17 +78,6 @@ pub fn guide(generating: &Matrix, valence: usize, net: &Matrix) -> Matrix {
     (1..valence).fold(piece(0), |all, s| all.above(&piece(s)))
 }
 
-/// The matrix averaged with its mirror image in the diagonal of the sector, which it equals up to
-/// rounding.
-pub fn symmetrised(generating: &Matrix, valence: usize) -> Matrix {
-    let net = CNet { valence };
-    let order = DEGREE + 1;
-    Matrix::from_fn(COEFS, net.num_nodes(), |row, node| {
-        let image = generating[(order * (row % order) + row / order, net.mirrored(node))];
-        (generating[(row, node)] + image) * Real::ratio(1, 2)
-    })
-}
-
 /// The guide of a net whose c_0 is zero.
 fn relative_matrix(chi: &CharacteristicRing, degree: usize) -> Matrix {
     let net = CNet { valence: chi.valence };
@@ -185,6 +174,7 @@ mod tests {
     use super::*;
     use crate::guided::characteristic::sigma_of;
     use crate::guided::space::bb_conditions;
+    use crate::guided::symmetry::symmetrised;
     use crate::linear::largest;
 
     /// Those of Catmull-Clark subdivision, and some of other speeds.

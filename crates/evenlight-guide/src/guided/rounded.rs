@@ -12,7 +12,7 @@ use crate::guided::characteristic::{CharacteristicRing, Square, sigma_of};
 use crate::guided::fit::generating_matrix_of_degree;
 use crate::guided::net::CNet;
 use crate::guided::space::DEGREE;
-use crate::guided::table::symmetric_rows;
+use crate::guided::symmetry::symmetric_rows;
 use crate::linear::Matrix;
 use crate::real::Real;
 

@@ -17,11 +17,11 @@
 
 use super::curvature::{Range, RingCurvature, curvature_over};
 use crate::cap::{Cap, Lines};
-use crate::parallel::map_indexed;
 use crate::patch::SurfacePoint;
 use crate::point::{cross, dot, norm, sub};
 use crate::rings::Rings;
 use crate::surface::{PatchPlace, Role, Surface};
+use crate::task::map_indexed;
 
 /// Samples along the side of a patch.
 const SAMPLES: usize = 16;
@@ -93,7 +93,7 @@ pub fn cap_report(surface: &Surface) -> Vec<CapReport> {
 }
 
 fn report_of(surface: &Surface, point: usize, cap: &Cap, places: &[PatchPlace]) -> CapReport {
-    let around = Around { rings: surface.rings(point), cap };
+    let around = Around { rings: surface.rings_at(point), cap };
     let over = |wanted: &dyn Fn(Role) -> bool| {
         let mut found = RingCurvature { gauss: Range::EMPTY, mean: Range::EMPTY };
         for place in places.iter().filter(|place| wanted(place.role)) {

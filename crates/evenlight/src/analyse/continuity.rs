@@ -127,13 +127,17 @@ struct Found {
 /// border.
 fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -> Found {
     let size = patches[k].domain.map(|[start, end]| end - start);
-    let here = surface.eval_on(&patches[k], at[0], at[1]);
+    let here = surface.answer_on::<SurfacePoint>(&patches[k], [at[0], at[1]]);
     let inside = patches.iter().enumerate().filter(|&(j, p)| j != k && contains(p, at));
     let mut jumps = Jumps::default();
     let mut alone = true;
     for (_, other) in inside {
         alone = false;
-        jumps = jumps.max(compare(&here, &surface.eval_on(other, at[0], at[1]), size));
+        jumps = jumps.max(compare(
+            &here,
+            &surface.answer_on::<SurfacePoint>(other, [at[0], at[1]]),
+            size,
+        ));
     }
     if let Some(side) = (0..4).find(|&side| is_on_side(side, at)) {
         let Some((quad, other_side, t, speed)) = across(surface, patches[k].quad, side, at) else {
@@ -162,8 +166,8 @@ fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -
 
 /// Whether a side of a quad lies on an infinitely sharp edge.
 fn is_crease(surface: &Surface, quad: QuadId, side: usize) -> bool {
-    let topology = surface.cage().topology();
-    let (face, k) = surface.face_of(quad);
+    let topology = surface.topology();
+    let (face, k) = surface.layout().face_of_quad(quad);
     let corners = topology.faces().corners(face).len();
     let edge = match (corners == 4, side) {
         (true, _) => side,
@@ -183,12 +187,14 @@ fn mean_jump_across_rings(
     k: usize,
     [u, v]: [f64; 2],
 ) -> f64 {
-    let here = surface.eval_on(&patches[k], u, v).mean;
+    let here = surface.answer_on::<SurfacePoint>(&patches[k], [u, v]).mean;
     let of_another_ring = |p: &&PatchPlace| {
         p.point == patches[k].point && p.role != patches[k].role && contains(p, [u, v])
     };
     let others = patches.iter().filter(of_another_ring);
-    others.map(|p| (surface.eval_on(p, u, v).mean - here).abs()).fold(0.0, f64::max)
+    others
+        .map(|p| (surface.answer_on::<SurfacePoint>(p, [u, v]).mean - here).abs())
+        .fold(0.0, f64::max)
 }
 
 /// Whether a point of a quad is in a patch, its border included.
@@ -258,8 +264,8 @@ fn across(
     side: usize,
     at: [f64; 2],
 ) -> Option<(QuadId, usize, f64, f64)> {
-    let topology = surface.cage().topology();
-    let (face, k) = surface.face_of(quad);
+    let topology = surface.topology();
+    let (face, k) = surface.layout().face_of_quad(quad);
     let corners = topology.faces().corners(face).len();
     let t = along_side(side, at);
     let quad_at = |face: FaceId, corner: usize| surface.quad(face, corner);

@@ -6,6 +6,7 @@
 //! to ring (Catmull-Clark's grow without bound).
 
 use super::continuity::{Jumps, continuity};
+use crate::patch::SurfacePoint;
 use crate::surface::{PatchPlace, Role, Surface};
 
 /// Grid points along each side of a patch, ends included.
@@ -115,7 +116,7 @@ pub fn curvature_over(surface: &Surface, place: &PatchPlace) -> RingCurvature {
     let mut found = RingCurvature { gauss: Range::EMPTY, mean: Range::EMPTY };
     for i in 0..GRID {
         for j in 0..GRID {
-            let p = surface.eval_on(place, at(u0, u1, i), at(v0, v1, j));
+            let p: SurfacePoint = surface.answer_on(place, [at(u0, u1, i), at(v0, v1, j)]);
             found.gauss = found.gauss.with(p.gauss);
             found.mean = found.mean.with(p.mean);
         }

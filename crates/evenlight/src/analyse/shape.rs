@@ -38,11 +38,12 @@
 //! comes from the third derivatives of the polynomials.
 
 use super::curvature::{Range, RingCurvature, curvature_over};
-use crate::parallel::map_indexed;
 use crate::patch::{Jet, Patch, SurfacePoint};
 use crate::point::{Vector, add, cross, dot, norm, scale, sub};
+use crate::quadrature::GAUSS_6;
 use crate::rings::Rings;
 use crate::surface::{ExtraordinaryPoint, PatchPlace, Role, Surface};
+use crate::task::map_indexed;
 
 /// The rings, counted from the outermost, over which the shape energy is taken.
 ///
@@ -114,7 +115,7 @@ pub fn shape(surface: &Surface, rings: usize) -> Vec<PointShape> {
         }
     }
     map_indexed(points.len(), |point| {
-        let around = Around { rings: surface.rings(point), point: &points[point] };
+        let around = Around { rings: surface.rings_at(point), point: &points[point] };
         let (scale, along_rays, around_rings) = around.oscillations(rings);
         let (curvature, energy) = over_patches(surface, &places[point], rings);
         PointShape { point, curvature, scale, along_rays, around_rings, energy }
@@ -133,7 +134,7 @@ fn over_patches(surface: &Surface, places: &[PatchPlace], rings: usize) -> (Ring
             curvature.mean = curvature.mean.union(found.mean);
         }
         if ring <= ENERGY_RINGS {
-            energy += shape_energy(&surface.patch(place));
+            energy += shape_energy(&surface.patch_at(place));
         }
     }
     (curvature, energy)
@@ -232,16 +233,6 @@ fn oscillation(values: &[f64]) -> f64 {
     }
 }
 
-/// Nodes and weights of Gauss's quadrature with six points on [0,1]; exact up to degree 11.
-const GAUSS: [(f64, f64); 6] = [
-    (0.033_765_242_898_423_99, 0.085_662_246_189_585_17),
-    (0.169_395_306_766_867_74, 0.180_380_786_524_069_3),
-    (0.380_690_406_958_401_55, 0.233_956_967_286_345_52),
-    (0.619_309_593_041_598_5, 0.233_956_967_286_345_52),
-    (0.830_604_693_233_132_3, 0.180_380_786_524_069_3),
-    (0.966_234_757_101_576, 0.085_662_246_189_585_17),
-];
-
 /// The integral of |grad H|^2 dA over a patch, in 1/unit^2, by 6 x 6 points of Gauss's quadrature;
 /// points without a normal are left out.
 ///
@@ -287,8 +278,8 @@ type CurvatureDerivative = fn(&Jet, [Vector; 2], [Vector; 3]) -> f64;
 fn integral_of_squared_gradient(patch: &Patch, by: CurvatureDerivative) -> f64 {
     let derivatives = [0, 1].map(|parameter| derivative(patch, parameter));
     let mut sum = 0.0;
-    for (u, wu) in GAUSS {
-        for (v, wv) in GAUSS {
+    for (u, wu) in GAUSS_6 {
+        for (v, wv) in GAUSS_6 {
             let jets = derivatives.each_ref().map(|p| p.jet(u, v));
             let density = energy_density(&patch.jet(u, v), &jets, by);
             if density.is_finite() {

@@ -7,7 +7,7 @@
 use super::sector::LAYERS;
 use super::spline::Space;
 use crate::dense::Matrix;
-use crate::point::{Vector, add_scaled};
+use crate::point::add_scaled;
 
 /// How border data follow from the patches of a sector of a ring.
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ impl Border {
     }
 
     /// The data of a sector from its patches' coefficients: edge a = 1, then b = 1, layer by layer.
-    pub(super) fn data(&self, patches: &[Vec<Vector>]) -> Vec<Vector> {
+    pub(super) fn data<const N: usize>(&self, patches: &[Vec<[f64; N]>]) -> Vec<[f64; N]> {
         let (d, order) = (self.degree, self.degree + 1);
         let mut data = Vec::new();
         for (across, along) in self.along.iter().enumerate() {
@@ -59,7 +59,7 @@ impl Border {
                     bb.push(derivative(d, width, layer, from_outside));
                 }
                 data.extend((0..along.num_rows()).map(|i| {
-                    let mut sum = [0.0; 3];
+                    let mut sum = [0.0; N];
                     along.row(i).iter().zip(&bb).for_each(|(&w, &p)| add_scaled(&mut sum, w, p));
                     sum
                 }));
@@ -70,14 +70,19 @@ impl Border {
 }
 
 /// The derivative of order 0, 1 or 2 at the end of BB coefficients counted from that end.
-fn derivative(d: usize, width: f64, order: usize, coef: impl Fn(usize) -> Vector) -> Vector {
+fn derivative<const N: usize>(
+    d: usize,
+    width: f64,
+    order: usize,
+    coef: impl Fn(usize) -> [f64; N],
+) -> [f64; N] {
     let (d1, d2) = (d as f64 / width, (d * (d - 1)) as f64 / (width * width));
     let terms: &[f64] = match order {
         0 => &[1.0],
         1 => &[d1, -d1],
         _ => &[d2, -2.0 * d2, d2],
     };
-    let mut sum = [0.0; 3];
+    let mut sum = [0.0; N];
     terms.iter().enumerate().for_each(|(r, &w)| add_scaled(&mut sum, w, coef(r)));
     sum
 }

@@ -29,7 +29,7 @@ pub(crate) struct FairCap {
 }
 
 /// The patches of a sector that do not touch the centre, as in [`FanLimit::cells`].
-type Cells = [Vec<Vector>; 3];
+type Cells<const N: usize> = [Vec<[f64; N]>; 3];
 
 impl FairCap {
     /// Bi-3 if that is asked for, else bi-4.
@@ -47,14 +47,19 @@ impl FairCap {
     }
 
     /// The patches of all sectors for the hole behind `count` rings, in the frame of the rings.
-    pub(super) fn patches(&self, rings: &Rings, limit: &FanLimit, count: usize) -> Vec<Patch> {
+    pub(super) fn patches<const N: usize>(
+        &self,
+        rings: &Rings<N>,
+        limit: &FanLimit,
+        count: usize,
+    ) -> Vec<Patch<N>> {
         let net = rings.net(count);
         let cells = limit.cells(&net);
-        let outside: Vec<Vec<Vector>> = cells.iter().map(outside).collect();
+        let outside: Vec<Vec<[f64; N]>> = cells.iter().map(outside).collect();
         let tangents = self.tangents_of_lines(rings, &net, &outside);
         let inner = self.inside.patches_within(&outside, &tangents);
         let degree = self.inside.space().degree;
-        let raised = |coefs: &Vec<Vector>| {
+        let raised = |coefs: &Vec<[f64; N]>| {
             let cubic = std::array::from_fn(|k| coefs[k]);
             Patch::new([degree; 2], self.inside.raised(&cubic))
         };
@@ -65,12 +70,12 @@ impl FairCap {
     }
 
     /// Of creases that of their cubic, of other lines cos(s theta) of it and sin(s theta) across.
-    fn tangents_of_lines(
+    fn tangents_of_lines<const N: usize>(
         &self,
-        rings: &Rings,
-        net: &[Vector],
-        outside: &[Vec<Vector>],
-    ) -> Vec<Vector> {
+        rings: &Rings<N>,
+        net: &[[f64; N]],
+        outside: &[Vec<[f64; N]>],
+    ) -> Vec<[f64; N]> {
         let lines = self.lines;
         let [_, y] = rings.rules().subdominant().tangential(net);
         let crease = |line: usize| LineEnd::of(outside, lines, line).tangent(true);
@@ -92,8 +97,8 @@ impl FairCap {
 /// them: a = 1/2, then b = 1/2.
 ///
 /// [`Border`]: super::border::Border
-fn outside([above, right, _]: &Cells) -> Vec<Vector> {
-    let layers = |row: &dyn Fn(usize, usize) -> Vector| -> Vec<Vector> {
+fn outside<const N: usize>([above, right, _]: &Cells<N>) -> Vec<[f64; N]> {
+    let layers = |row: &dyn Fn(usize, usize) -> [f64; N]| -> Vec<[f64; N]> {
         let edge = |layer: usize| {
             (0..4).map(move |k| {
                 let (p, q, r) = (row(0, k), row(1, k), row(2, k));

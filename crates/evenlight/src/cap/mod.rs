@@ -175,34 +175,55 @@ impl CapKind {
 
 /// The cap around one extraordinary point.
 #[derive(Clone, Debug)]
-pub struct Cap {
+pub struct Cap<const N: usize = 3> {
     rings: usize,
     space: Space,
     /// The patches of all sectors in the frame of the rings, scaled as ring `rings`.
-    patches: Vec<Patch>,
+    patches: Vec<Patch<N>>,
 }
 
 impl Cap {
+    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`, the hole being
+    /// the unit square; derivatives are by the sector's own parameters, as those of the rings.
+    ///
+    /// `rings` must be those that the cap was made for. At the centre the curvature is that of the
+    /// common quadratic. Around fans and other plain caps it has the limit normal, if there is one, and
+    /// no curvature (NaN), as sectors have different ones.
+    ///
+    /// # Panics
+    ///
+    /// If `s` is not below the valence.
+    pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> SurfacePoint {
+        self.eval_as(rings, s, at)
+    }
+
+    /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it.
+    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, at: [f64; 2]) -> SurfacePoint {
+        self.eval_in_patch(rings, s, which, at)
+    }
+}
+
+impl<const N: usize> Cap<N> {
     /// The cap behind `options.rings` rings.
     ///
     /// # Errors
     ///
     /// [`CapError`], if no such cap fits the rings.
-    pub fn new(rings: &Rings, options: CapOptions) -> Result<Self, CapError> {
+    pub fn new(rings: &Rings<N>, options: CapOptions) -> Result<Self, CapError> {
         let rules = ValenceCap::new(rings.rules(), options.kind)?;
         Ok(Self::with_rules(rings, options.rings, &rules))
     }
 
-    pub(crate) fn with_rules(rings: &Rings, count: usize, rules: &ValenceCap) -> Self {
-        let (space, patches) = match rules {
-            ValenceCap::Round(cap) => (cap.space(), cap.patches(rings, count)),
-            ValenceCap::Plain(cap) => (cap.space(), cap.patches(rings, count)),
+    pub(crate) fn with_rules(rings: &Rings<N>, count: usize, rules: &ValenceCap) -> Self {
+        let patches = match rules {
+            ValenceCap::Round(cap) => cap.patches(rings, count),
+            ValenceCap::Plain(cap) => cap.patches(rings, count),
             ValenceCap::Fair(cap) => {
                 let limit = rings.rules().fan_limit().expect("these are the rules of a fan");
-                (cap.space(), cap.patches(rings, limit, count))
+                cap.patches(rings, limit, count)
             }
         };
-        Self { rings: count, space, patches }
+        Self { rings: count, space: rules.space(), patches }
     }
 
     /// The number of rings in front of it.
@@ -228,51 +249,32 @@ impl Cap {
     /// The part [[a0, a1], [b0, b1]] of the hole that patch `which` of a sector covers, the hole
     /// being the unit square; the index along b is fastest.
     pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
-        let m = self.space.pieces;
-        [which / m, which % m].map(|k| [k as f64 / m as f64, (k + 1) as f64 / m as f64])
+        self.space.patch_domain(which)
     }
 
     /// Patch `which` of sector `s`, in world coordinates.
-    pub fn patch(&self, rings: &Rings, s: usize, which: usize) -> Patch {
+    pub fn patch(&self, rings: &Rings<N>, s: usize, which: usize) -> Patch<N> {
         rings.to_world(self.rings, &self.patches[s * self.patches_per_sector() + which])
     }
 
-    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`, the hole being
-    /// the unit square; derivatives are by the sector's own parameters, as those of the rings.
-    ///
-    /// `rings` must be those that the cap was made for. At the centre the curvature is that of the
-    /// common quadratic. Around fans and other plain caps it has the limit normal, if there is one, and
-    /// no curvature (NaN), as sectors have different ones.
-    ///
-    /// # Panics
-    ///
-    /// If `s` is not below the valence.
-    pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> SurfacePoint {
-        self.eval_as(rings, s, at)
-    }
-
     /// [`Cap::eval`] of what is wanted alone.
-    pub(crate) fn eval_as<A: Answer>(&self, rings: &Rings, s: usize, [a, b]: [f64; 2]) -> A {
+    pub(crate) fn eval_as<A: Answer<N>>(&self, rings: &Rings<N>, s: usize, [a, b]: [f64; 2]) -> A {
         let m = self.space.pieces;
         let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
         let which = part(a) * m + part(b);
         if a.max(b) == 0.0 && plain::is_plain(rings.rules()) {
             // Derivatives may be parallel, and curvature is not that of the other sectors.
-            let jet: Jet = self.eval_in_patch(rings, s, which, [a, b]);
+            let jet: Jet<N> = self.eval_in_patch(rings, s, which, [a, b]);
             let (normal, none) = (rings.normal(), f64::NAN);
             return A::from_parts(jet, |_| Shape { normal, gauss: none, mean: none });
         }
         self.eval_in_patch(rings, s, which, [a, b])
     }
 
-    /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it.
-    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, at: [f64; 2]) -> SurfacePoint {
-        self.eval_in_patch(rings, s, which, at)
-    }
-
-    fn eval_in_patch<A: Answer>(
+    /// [`Cap::eval_on`] of what is wanted alone.
+    pub(crate) fn eval_in_patch<A: Answer<N>>(
         &self,
-        rings: &Rings,
+        rings: &Rings<N>,
         s: usize,
         which: usize,
         [a, b]: [f64; 2],
@@ -303,6 +305,24 @@ impl ValenceCap {
             return Ok(Self::Plain(Box::new(PlainCap::new(rules, kind))));
         }
         Ok(Self::Round(Box::new(RoundCap::new(rules, kind)?)))
+    }
+
+    fn space(&self) -> Space {
+        match self {
+            Self::Round(cap) => cap.space(),
+            Self::Plain(cap) => cap.space(),
+            Self::Fair(cap) => cap.space(),
+        }
+    }
+
+    /// [`Cap::patches_per_sector`].
+    pub(crate) fn patches_per_sector(&self) -> usize {
+        self.space().pieces * self.space().pieces
+    }
+
+    /// [`Cap::patch_domain`].
+    pub(crate) fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
+        self.space().patch_domain(which)
     }
 }
 

@@ -43,7 +43,7 @@ use super::spline::{Space, raising};
 use super::{CapKind, MAX_VALENCE, domains};
 use crate::angle::{cosine, sine};
 use crate::patch::Patch;
-use crate::point::{Vector, add, add_scaled, scale, sub};
+use crate::point::{add, add_scaled, scale, sub};
 use crate::rings::{Rings, ValenceRules};
 use crate::scheme::{FanLimit, Row, Rules};
 
@@ -80,7 +80,7 @@ pub(crate) struct Lines {
 type Directions = [(Row, [f64; 2]); 2];
 
 /// The bi-3 patch of a sector, the coefficients along line s+1 fastest.
-pub(super) type Bicubic = [Vector; 16];
+pub(super) type Bicubic<const N: usize> = [[f64; N]; 16];
 
 impl PlainCap {
     /// Bi-3 if that is asked for, else bi-4.
@@ -109,10 +109,10 @@ impl PlainCap {
     }
 
     /// The patches of all sectors for the hole behind `count` rings, in the frame of the rings.
-    pub(super) fn patches(&self, rings: &Rings, count: usize) -> Vec<Patch> {
-        let ring: Vec<Vec<Vector>> =
+    pub(super) fn patches<const N: usize>(&self, rings: &Rings<N>, count: usize) -> Vec<Patch<N>> {
+        let ring: Vec<Vec<[f64; N]>> =
             rings.frame_patches(count).iter().map(|patch| patch.coefs().to_vec()).collect();
-        let outside: Vec<Vec<Vector>> = ring
+        let outside: Vec<Vec<[f64; N]>> = ring
             .chunks(rings.patches_per_sector())
             .map(|patches| self.border.data(patches))
             .collect();
@@ -121,29 +121,29 @@ impl PlainCap {
     }
 
     /// The patches with these data on the outer edges and these tangents of the lines.
-    pub(super) fn patches_within(
+    pub(super) fn patches_within<const N: usize>(
         &self,
-        outside: &[Vec<Vector>],
-        tangents: &[Vector],
-    ) -> Vec<Patch> {
-        let cubics: Vec<Bicubic> = (0..self.lines.sectors)
+        outside: &[Vec<[f64; N]>],
+        tangents: &[[f64; N]],
+    ) -> Vec<Patch<N>> {
+        let cubics: Vec<Bicubic<N>> = (0..self.lines.sectors)
             .map(|s| bicubic(&outside[s], [tangents[s], tangents[self.lines.next(s)]]))
             .collect();
-        let mut nets: Vec<Vec<Vector>> = cubics.iter().map(|net| self.raised(net)).collect();
+        let mut nets: Vec<Vec<[f64; N]>> = cubics.iter().map(|net| self.raised(net)).collect();
         self.join(&mut nets, &cubics, tangents);
         nets.into_iter().map(|net| Patch::new([self.degree; 2], net)).collect()
     }
 
     /// T of every line.
-    fn tangents_of_lines(
+    fn tangents_of_lines<const N: usize>(
         &self,
-        rings: &Rings,
+        rings: &Rings<N>,
         count: usize,
-        outside: &[Vec<Vector>],
-    ) -> Vec<Vector> {
+        outside: &[Vec<[f64; N]>],
+    ) -> Vec<[f64; N]> {
         let lines = self.lines;
         let ends = (0..lines.count()).map(|line| LineEnd::of(outside, lines, line));
-        let mut found: Vec<Vector> =
+        let mut found: Vec<[f64; N]> =
             ends.enumerate().map(|(line, end)| end.tangent(lines.is_crease(line))).collect();
         let limit = rings.rules().fan_limit();
         if let Some((directions, limit)) = self.directions.as_ref().zip(limit) {
@@ -158,10 +158,10 @@ impl PlainCap {
     }
 
     /// The coefficients of a sector in the cap's degree.
-    pub(super) fn raised(&self, cubic: &Bicubic) -> Vec<Vector> {
+    pub(super) fn raised<const N: usize>(&self, cubic: &Bicubic<N>) -> Vec<[f64; N]> {
         let (raise, order) = (raising(3, self.degree), self.degree + 1);
         let coef = |k: usize| {
-            let mut sum = [0.0; 3];
+            let mut sum = [0.0; N];
             for (m, &p) in cubic.iter().enumerate() {
                 add_scaled(&mut sum, raise[(k / order, m / 4)] * raise[(k % order, m % 4)], p);
             }
@@ -171,7 +171,12 @@ impl PlainCap {
     }
 
     /// Moves the coefficients beside all smooth lines to the sums that they must have.
-    fn join(&self, nets: &mut [Vec<Vector>], cubics: &[Bicubic], tangents: &[Vector]) {
+    fn join<const N: usize>(
+        &self,
+        nets: &mut [Vec<[f64; N]>],
+        cubics: &[Bicubic<N>],
+        tangents: &[[f64; N]],
+    ) {
         let order = self.degree + 1;
         let mut twists = Vec::new();
         for line in self.lines.smooth() {
@@ -196,7 +201,12 @@ impl PlainCap {
     }
 
     /// The BB coefficients 1 and 2 of (1-u)^2 W(u) on a line, those of degree 3 or 4.
-    fn sums(&self, line: usize, cubic: &Bicubic, tangents: &[Vector]) -> [Vector; 2] {
+    fn sums<const N: usize>(
+        &self,
+        line: usize,
+        cubic: &Bicubic<N>,
+        tangents: &[[f64; N]],
+    ) -> [[f64; N]; 2] {
         if self.has_plane && self.degree == 4 {
             let slope = |k: usize| scale(3.0, sub(cubic[4 * k + 4], cubic[4 * k]));
             let c = cosine(self.lines.angle());
@@ -206,7 +216,7 @@ impl PlainCap {
         let [before, after] = around.map(|line| tangents[line]);
         let w = add(before, after);
         if self.degree == 3 {
-            [scale(1.0 / 3.0, w), [0.0; 3]]
+            [scale(1.0 / 3.0, w), [0.0; N]]
         } else {
             [scale(1.0 / 2.0, w), scale(1.0 / 6.0, w)]
         }
@@ -259,17 +269,17 @@ impl Lines {
     }
 
     /// T of a line for a net with its vertex, the first direction being `crease` if that is known.
-    fn tangent(
+    fn tangent<const N: usize>(
         self,
         line: usize,
         directions: &Directions,
-        net: &[Vector],
-        crease: Option<Vector>,
-    ) -> Vector {
+        net: &[[f64; N]],
+        crease: Option<[f64; N]>,
+    ) -> [f64; N] {
         let angle = line as f64 * self.angle();
         let (c, s) = (cosine(angle), sine(angle));
         let [along, across] = directions.each_ref().map(|(row, [in_cos, in_sin])| {
-            let mut sum = [0.0; 3];
+            let mut sum = [0.0; N];
             let weight = in_cos * c + in_sin * s;
             row.iter().for_each(|&(k, w)| add_scaled(&mut sum, weight * w, net[k]));
             sum
@@ -289,11 +299,11 @@ impl Lines {
     }
 
     /// The shortest moves t of the sectors with t_(s-1) + t_s = what is missing on line s.
-    fn chain(self, missing: &[(usize, Vector)]) -> Vec<Vector> {
+    fn chain<const N: usize>(self, missing: &[(usize, [f64; N])]) -> Vec<[f64; N]> {
         let sign = |s: usize| if s.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let mut moves = vec![[0.0; 3]; self.sectors];
+        let mut moves = vec![[0.0; N]; self.sectors];
         missing.iter().for_each(|&(line, sum)| moves[line] = sub(sum, moves[line - 1]));
-        let mut alternating = [0.0; 3];
+        let mut alternating = [0.0; N];
         let share = -1.0 / self.sectors as f64;
         moves
             .iter()
@@ -304,8 +314,8 @@ impl Lines {
     }
 
     /// Of every sector the mean of the halves that are missing on its smooth lines.
-    fn half_way(self, missing: &[(usize, Vector)]) -> Vec<Vector> {
-        let mut moves = vec![([0.0; 3], 0.0); self.sectors];
+    fn half_way<const N: usize>(self, missing: &[(usize, [f64; N])]) -> Vec<[f64; N]> {
+        let mut moves = vec![([0.0; N], 0.0); self.sectors];
         for &(line, sum) in missing {
             for s in [line, self.behind(line)] {
                 add_scaled(&mut moves[s].0, 0.5, sum);
@@ -317,10 +327,10 @@ impl Lines {
 }
 
 /// The surface at the outer end of a line of the hole: position and derivatives along the line.
-pub(super) struct LineEnd([Vector; 3]);
+pub(super) struct LineEnd<const N: usize>([[f64; N]; 3]);
 
-impl LineEnd {
-    pub(super) fn of(outside: &[Vec<Vector>], lines: Lines, line: usize) -> Self {
+impl<const N: usize> LineEnd<N> {
+    pub(super) fn of(outside: &[Vec<[f64; N]>], lines: Lines, line: usize) -> Self {
         // The last line of an open fan is the b-axis of the last sector.
         let (sector, edge) = if line == lines.sectors { (line - 1, 1) } else { (line, 0) };
         Self([0, 1, 2].map(|layer| outside[sector][at(edge, layer, 0)]))
@@ -328,9 +338,9 @@ impl LineEnd {
 
     /// The derivative at the centre, which is the origin: of the cubic that goes on with second
     /// derivatives, or of the parabola that does with first ones.
-    pub(super) fn tangent(&self, is_cubic: bool) -> Vector {
+    pub(super) fn tangent(&self, is_cubic: bool) -> [f64; N] {
         let weights = if is_cubic { [3.0, -2.0, 0.5] } else { [2.0, -1.0, 0.0] };
-        let mut sum = [0.0; 3];
+        let mut sum = [0.0; N];
         weights.into_iter().zip(self.0).for_each(|(w, p)| add_scaled(&mut sum, w, p));
         sum
     }
@@ -344,23 +354,23 @@ fn at(edge: usize, layer: usize, k: usize) -> usize {
 
 /// The bi-3 patch with the given outer edges and tangents at the origin and, as far as it can in
 /// the square mean, without third differences through its first inner coefficient.
-fn bicubic(outside: &[Vector], [first, last]: [Vector; 2]) -> Bicubic {
+fn bicubic<const N: usize>(outside: &[[f64; N]], [first, last]: [[f64; N]; 2]) -> Bicubic<N> {
     let edge = |edge: usize, from_end: usize, k: usize| {
         let mut p = outside[at(edge, 0, k)];
         add_scaled(&mut p, -(from_end as f64) / 3.0, outside[at(edge, 1, k)]);
         p
     };
-    let mut net = [[0.0; 3]; 16];
+    let mut net = [[0.0; N]; 16];
     for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
         net[4 * i + j] = match (i >= 2, j >= 2) {
             (true, true) => scale(0.5, add(edge(0, 3 - i, j), edge(1, 3 - j, i))),
             (true, false) => edge(0, 3 - i, j),
             (false, true) => edge(1, 3 - j, i),
-            (false, false) => [0.0; 3],
+            (false, false) => [0.0; N],
         };
     }
     (net[4], net[1]) = (scale(1.0 / 3.0, first), scale(1.0 / 3.0, last));
-    let mut inner = [0.0; 3];
+    let mut inner = [0.0; N];
     for (k, w) in [(9, 3.0), (13, -1.0), (1, 1.0), (6, 3.0), (7, -1.0), (4, 1.0)] {
         add_scaled(&mut inner, w / 6.0, net[k]);
     }
@@ -380,7 +390,7 @@ fn line_ends_of_eigenvector(
     lines: Lines,
 ) -> Vec<f64> {
     // The left eigenvector is a net with the same symmetry, and has a part of the right one.
-    let mut net = vec![[0.0; 3]; rules.num_nodes()];
+    let mut net = vec![[0.0]; rules.num_nodes()];
     for &(k, w) in row {
         // The vertex, the last node of the row, is none of the net.
         if let Some(p) = net.get_mut(k) {
@@ -395,7 +405,7 @@ fn line_ends_of_eigenvector(
     let with_vertex = limit.with_vertex(&net);
     let value: f64 = row.iter().map(|&(k, w)| w * with_vertex[k][0]).sum();
     let refined = rules.refine(&net);
-    let outside: Vec<Vec<Vector>> = (0..lines.sectors)
+    let outside: Vec<Vec<[f64; 1]>> = (0..lines.sectors)
         .map(|s| {
             let patch = |which| rules.patch(s, which, &net, &refined);
             border.data(&(0..rules.patches_per_sector()).map(patch).collect::<Vec<_>>())

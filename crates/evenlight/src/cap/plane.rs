@@ -13,6 +13,7 @@
 use super::sector::{Complex, LAYERS, Sector};
 use super::spline::inverted;
 use crate::dense::{Matrix, constrained_least_squares};
+use crate::quadrature::GAUSS_7;
 
 /// How strongly caps hold to tangency where it cannot be exact, against bending.
 pub(super) const TANGENCY: f64 = 1e3;
@@ -103,7 +104,7 @@ pub(super) fn mismatch(sector: &Sector, map: &[Complex], chi: &[Complex]) -> Vec
     let (dim, pieces) = (sector.space.dim(), sector.space.pieces);
     let mut rows = Vec::new();
     for (edge, piece) in (0..2).flat_map(|edge| (0..pieces).map(move |piece| (edge, piece))) {
-        for (t, weight) in super::spline::gauss() {
+        for (t, weight) in GAUSS_7 {
             let end = (pieces - 1, 1.0);
             let at = if edge == 0 { [end, (piece, t)] } else { [(piece, t), end] };
             let own = sector.taylor(at, 3);

@@ -58,7 +58,7 @@ impl RoundCap {
     }
 
     /// The patches of all sectors for the hole behind `count` rings, in the frame of the rings.
-    pub(super) fn patches(&self, rings: &Rings, count: usize) -> Vec<Patch> {
+    pub(super) fn patches<const N: usize>(&self, rings: &Rings<N>, count: usize) -> Vec<Patch<N>> {
         let net = rings.net(count);
         let data = self.data(rings, count, &net);
         let center = self.center(rings, &net);
@@ -69,14 +69,19 @@ impl RoundCap {
     }
 
     /// The data of all sectors for a hole behind `count` rings.
-    fn data(&self, rings: &Rings, count: usize, net: &[Vector]) -> Vec<Vector> {
+    fn data<const N: usize>(
+        &self,
+        rings: &Rings<N>,
+        count: usize,
+        net: &[[f64; N]],
+    ) -> Vec<[f64; N]> {
         let rules = rings.rules().rules();
         let ring = rings.frame_patches(count);
         let nodes = net.chunks(rules.nodes_per_sector);
         let sectors = ring.chunks(rules.patches_per_sector()).zip(nodes);
         let mut data = Vec::new();
         for (patches, nodes) in sectors {
-            let coefs: Vec<Vec<Vector>> = patches.iter().map(|p| p.coefs().to_vec()).collect();
+            let coefs: Vec<Vec<[f64; N]>> = patches.iter().map(|p| p.coefs().to_vec()).collect();
             data.extend(self.border.data(&coefs));
             if rules.guide.is_some() {
                 let first = rules.control_nodes_per_sector();
@@ -87,7 +92,11 @@ impl RoundCap {
     }
 
     /// What is given at the centre, as weights of x, y, x^2 + y^2, Re (x + iy)^2, Im (x + iy)^2.
-    fn center(&self, rings: &Rings, net: &[Vector]) -> [Vector; rules::PLANE_FUNCTIONS] {
+    fn center<const N: usize>(
+        &self,
+        rings: &Rings<N>,
+        net: &[[f64; N]],
+    ) -> [[f64; N]; rules::PLANE_FUNCTIONS] {
         let (rules, subdominant) = (rings.rules().rules(), rings.rules().subdominant());
         let [along_x, along_y] = subdominant.tangential(net);
         let [x, y] = self.kappa;
@@ -96,7 +105,7 @@ impl RoundCap {
             add_scaled(&mut sum, w, along_y);
             sum
         };
-        let (linear, zero) = ([sum(x, y), sum(-y, x)], [0.0; 3]);
+        let (linear, zero) = ([sum(x, y), sum(-y, x)], [0.0; N]);
         let [radius, real, imaginary] = if rules.lambda_of_linear_terms().is_some() {
             let first = rules.control_nodes_per_sector() + 2;
             let terms = [net[first], net[first + 1], net[first + 2]];
@@ -130,7 +139,11 @@ fn kappa(rules: &Rules, ring: &[Vec<Vector>]) -> Complex {
 
 /// gamma u^2 + delta u v + epsilon v^2 in sector 0, whose lines have unit length in coordinates
 /// `size` = |kappa|^2 of ours, as weights of x^2 + y^2, Re (x + iy)^2, Im (x + iy)^2.
-fn second_order(n: usize, size: f64, [gamma, delta, epsilon]: [Vector; 3]) -> [Vector; 3] {
+fn second_order<const N: usize>(
+    n: usize,
+    size: f64,
+    [gamma, delta, epsilon]: [[f64; N]; 3],
+) -> [[f64; N]; 3] {
     let half = std::f64::consts::PI / n as f64;
     // u = x / (2c) - y / (2s), v = x / (2c) + y / (2s)
     let (c, s) = (cosine(half), sine(half));
@@ -147,6 +160,6 @@ fn second_order(n: usize, size: f64, [gamma, delta, epsilon]: [Vector; 3]) -> [V
                 _ => 0.5 * xy * (epsilon[at] - gamma[at]),
             }
         };
-        [0, 1, 2].map(|at| combination(k, at))
+        std::array::from_fn(|at| combination(k, at))
     })
 }

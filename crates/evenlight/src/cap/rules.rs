@@ -88,11 +88,16 @@ impl CapRules {
 
     /// The spline coefficients of sector `s` from the data of all sectors, one after the other, and
     /// what is given at the centre.
-    pub(super) fn coefs(&self, s: usize, data: &[[f64; 3]], center: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    pub(super) fn coefs<const N: usize>(
+        &self,
+        s: usize,
+        data: &[[f64; N]],
+        center: &[[f64; N]],
+    ) -> Vec<[f64; N]> {
         let n = self.sector.valence;
         let count = self.num_data();
-        let mut coefs = vec![[0.0; 3]; self.sector.num_coefs()];
-        let mut add = |weights: &Matrix, data: &[[f64; 3]]| {
+        let mut coefs = vec![[0.0; N]; self.sector.num_coefs()];
+        let mut add = |weights: &Matrix, data: &[[f64; N]]| {
             for (i, sum) in coefs.iter_mut().enumerate() {
                 let terms = weights.row(i).iter().zip(data);
                 terms.for_each(|(&w, &p)| crate::point::add_scaled(sum, w, p));
@@ -290,12 +295,12 @@ impl<'a> Mode<'a> {
 }
 
 /// The BB coefficients of the pieces of a sector, m x m patches, that along v fastest.
-pub(super) fn pieces(sector: &Sector, coefs: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
+pub(super) fn pieces<const N: usize>(sector: &Sector, coefs: &[[f64; N]]) -> Vec<Vec<[f64; N]>> {
     let (order, m, dim) = (sector.space.degree + 1, sector.space.pieces, sector.space.dim());
     let piece = |a: usize, b: usize| {
         let bb = |i: usize, j: usize| {
             let weights = product(sector.to_bb.row(a * order + i), sector.to_bb.row(b * order + j));
-            let mut sum = [0.0; 3];
+            let mut sum = [0.0; N];
             for (at, &w) in weights.iter().enumerate().filter(|&(_, &w)| w != 0.0) {
                 crate::point::add_scaled(&mut sum, w, coefs[at]);
             }

@@ -22,9 +22,10 @@
 //!   Im(e^(i phi) Y) = 0,   Re(e^(i phi) Y_v) = c (1-u)^2 Re(e^(i phi) Y_u)   on v = 0.
 //! ```
 
-use super::spline::{Space, gauss, raising};
+use super::spline::{Space, raising};
 use crate::angle::{cosine, sector_cosine, sine};
 use crate::dense::Matrix;
+use crate::quadrature::GAUSS_7;
 
 /// A complex number.
 pub(super) type Complex = [f64; 2];
@@ -163,7 +164,7 @@ impl Sector {
     pub(super) fn nodes(&self) -> Vec<([(usize, f64); 2], f64)> {
         let step = self.space.step();
         let on_line: Vec<((usize, f64), f64)> = (0..self.space.pieces)
-            .flat_map(|piece| gauss().map(|(t, w)| ((piece, t), w * step)))
+            .flat_map(|piece| GAUSS_7.map(|(t, w)| ((piece, t), w * step)))
             .collect();
         let pairs =
             on_line.iter().flat_map(|&(u, a)| on_line.iter().map(move |&(v, b)| ([u, v], a * b)));

@@ -81,8 +81,8 @@ struct Record<'a> {
 impl fmt::Display for Record<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { surface, placed } = self;
-        let (face, corner) = surface.face_of(placed.quad);
-        let is_quad = surface.cage().topology().faces().corners(face).len() == 4;
+        let (face, corner) = surface.face_of(placed.quad).ok_or(fmt::Error)?;
+        let is_quad = surface.topology().faces().corners(face).len() == 4;
         let center = placed.point.map(|i| &surface.extraordinary_points()[i]);
         let [du, dv] = placed.patch.degree();
         write!(
@@ -91,8 +91,8 @@ impl fmt::Display for Record<'_> {
             Name(placed.role),
             face.0,
             Json((!is_quad).then_some(corner)),
-            Json(center.and_then(|p| p.vertex).map(|v| v.0)),
-            Json(center.and_then(|p| p.face).map(|f| f.0)),
+            Json(center.and_then(|p| p.vertex()).map(|v| v.0)),
+            Json(center.and_then(|p| p.face()).map(|f| f.0)),
             Json(placed.sector),
             Json(ring(placed.role)),
         )?;

@@ -21,8 +21,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::sharpness::{Beyond, half_edges_of, is_semi_sharp, single};
 use super::{
-    BoundaryRule, Cage, Corner, Crease, FaceVaryingRule, Faces, HalfEdgeId, INFINITELY_SHARP, Mesh,
-    Primvar, Tags, Topology, VertexId,
+    BoundaryRule, Corner, Crease, FaceVaryingRule, Faces, HalfEdgeId, INFINITELY_SHARP, Primvar,
+    Tags, Topology, VertexId,
 };
 
 /// The faces of a channel, and the value at each of its vertices.
@@ -39,25 +39,29 @@ pub(crate) struct ChannelNet {
 }
 
 impl ChannelNet {
-    /// The net of a face-varying channel of `cage`, whose positions have this boundary rule.
-    pub(crate) fn new(cage: &Cage, channel: &Primvar, boundary: BoundaryRule) -> Self {
-        let topology = cage.topology();
+    /// The net of a face-varying channel of a cage whose positions have this boundary rule.
+    pub(crate) fn new(
+        topology: &Topology,
+        tags: &Tags,
+        channel: &Primvar,
+        boundary: BoundaryRule,
+    ) -> Self {
         let values = &channel.indices[..];
         let mut splitter = Splitter {
-            cage,
+            tags,
             topology,
             values,
             boundary,
-            rule: cage.tags().face_varying,
-            edge_sharpness: edge_sharpness(cage),
-            vertex_sharpness: vertex_sharpness(cage),
+            rule: tags.face_varying,
+            edge_sharpness: edge_sharpness(topology, tags),
+            vertex_sharpness: vertex_sharpness(topology, tags),
             of_corner: vec![VertexId(0); values.len()],
             vertices: Vec::new(),
             corners: Vec::new(),
             beyond: BTreeMap::new(),
         };
         (0..topology.num_vertices() as u32).for_each(|v| splitter.split(VertexId(v)));
-        let tags = splitter.tags();
+        let tags = splitter.own_tags();
         let Splitter { of_corner, vertices, beyond, .. } = splitter;
         let mut faces = Faces::default();
         for face in topology.faces().ids() {
@@ -65,27 +69,12 @@ impl ChannelNet {
         }
         Self { faces, tags, values: vertices, beyond }
     }
-
-    /// The net as a mesh whose positions are the numbers `first`, `first` + 1 and `first` + 2 of
-    /// the values, those that there are.
-    pub(crate) fn mesh(&self, channel: &Primvar, first: usize) -> Mesh {
-        let positions = self.values.iter().map(|&v| triple(channel, v as usize, first)).collect();
-        let (faces, tags) = (self.faces.clone(), self.tags.clone());
-        Mesh { positions, faces, tags, primvars: Vec::new() }
-    }
-}
-
-/// Three numbers of a value from number `first` on; what it has not is 0.
-pub(crate) fn triple(channel: &Primvar, value: usize, first: usize) -> [f64; 3] {
-    let numbers = &channel.values[value * channel.width..][..channel.width];
-    [0, 1, 2].map(|k| numbers.get(first + k).copied().unwrap_or(0.0))
 }
 
 /// The sharpness of every half-edge.
-fn edge_sharpness(cage: &Cage) -> Vec<f64> {
-    let topology = cage.topology();
+fn edge_sharpness(topology: &Topology, tags: &Tags) -> Vec<f64> {
     let mut sharpness = vec![0.0; topology.half_edges().len()];
-    for crease in &cage.tags().creases {
+    for crease in &tags.creases {
         for h in half_edges_of(topology, crease.edge) {
             sharpness[h.index()] = single(crease.sharpness);
         }
@@ -94,9 +83,9 @@ fn edge_sharpness(cage: &Cage) -> Vec<f64> {
 }
 
 /// The sharpness of every vertex.
-fn vertex_sharpness(cage: &Cage) -> Vec<f64> {
-    let mut sharpness = vec![0.0; cage.positions().len()];
-    for corner in &cage.tags().corners {
+fn vertex_sharpness(topology: &Topology, tags: &Tags) -> Vec<f64> {
+    let mut sharpness = vec![0.0; topology.num_vertices()];
+    for corner in &tags.corners {
         sharpness[corner.vertex.index()] = single(corner.sharpness);
     }
     sharpness
@@ -123,7 +112,7 @@ impl Fan {
 }
 
 struct Splitter<'a> {
-    cage: &'a Cage,
+    tags: &'a Tags,
     topology: &'a Topology,
     values: &'a [u32],
     boundary: BoundaryRule,
@@ -139,6 +128,9 @@ struct Splitter<'a> {
 impl Splitter<'_> {
     /// Makes the vertices of the channel at `v`, and says how sharp they are.
     fn split(&mut self, v: VertexId) {
+        if !self.topology.ring(v).any(|h| self.is_seam(h)) {
+            return self.keep(v);
+        }
         let fans = self.fans(v);
         let sharpness = self.fan_sharpness(v, &fans);
         for (k, (fan, sharpness)) in fans.iter().zip(sharpness).enumerate() {
@@ -153,6 +145,20 @@ impl Splitter<'_> {
             if beyond != Beyond::default() {
                 self.beyond.insert(vertex, beyond);
             }
+        }
+    }
+
+    /// Makes the one vertex of the channel at `v`, where there is neither a seam nor a boundary.
+    fn keep(&mut self, v: VertexId) {
+        let Some(first) = self.topology.ring(v).next() else { return };
+        let vertex = VertexId(self.vertices.len() as u32);
+        self.vertices.push(self.value(first));
+        for h in self.topology.ring(v) {
+            self.of_corner[h.index()] = vertex;
+        }
+        let sharpness = self.vertex_sharpness[v.index()];
+        if sharpness > 0.0 {
+            self.corners.push(Corner { vertex, sharpness });
         }
     }
 
@@ -269,8 +275,7 @@ impl Splitter<'_> {
     }
 
     /// The tags of the channel.
-    fn tags(&self) -> Tags {
-        let tags = self.cage.tags();
+    fn own_tags(&self) -> Tags {
         let creases = self.topology.half_edges().filter(|&h| {
             // Once per edge that is none of the channel's boundaries.
             let is_first = self.topology.twin(h).is_some_and(|twin| h < twin);
@@ -283,11 +288,11 @@ impl Splitter<'_> {
         };
         Tags {
             boundary: BoundaryRule::EdgeOnly,
-            crease_method: tags.crease_method,
+            crease_method: self.tags.crease_method,
             face_varying: self.rule,
             creases: creases.map(crease).collect(),
             corners: self.corners.clone(),
-            holes: tags.holes.clone(),
+            holes: self.tags.holes.clone(),
         }
     }
 }

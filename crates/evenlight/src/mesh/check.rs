@@ -28,6 +28,7 @@ mod primvars;
 pub use primvars::PrimvarFault;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::sharpness::half_edges_of;
 use super::{
@@ -37,14 +38,14 @@ use crate::point::Point;
 
 /// A mesh that passed all checks, with its connectivity.
 ///
-/// Large and without interior mutability: to be shared as `Arc<Cage>`.
+/// Cheap to clone: all parts are shared.
 #[derive(Clone, Debug)]
 pub struct Cage {
-    positions: Vec<Point>,
-    topology: Topology,
-    tags: Tags,
-    primvars: Vec<Primvar>,
-    warnings: Vec<Warning>,
+    positions: Arc<[Point]>,
+    topology: Arc<Topology>,
+    tags: Arc<Tags>,
+    primvars: Arc<[Primvar]>,
+    warnings: Arc<[Warning]>,
 }
 
 impl Cage {
@@ -81,9 +82,26 @@ impl Cage {
         if !errors.is_empty() {
             return Err(CheckError { errors });
         }
-        let warnings = warnings(&topology);
+        let warnings = warnings(&topology).into();
         let Mesh { positions, tags, primvars, .. } = mesh;
-        Ok(Self { positions, topology, tags, primvars, warnings })
+        let (topology, tags) = (Arc::new(topology), Arc::new(tags));
+        Ok(Self {
+            positions: positions.into(),
+            topology,
+            tags,
+            primvars: primvars.into(),
+            warnings,
+        })
+    }
+
+    /// The same cage with other positions, of all vertices.
+    ///
+    /// # Errors
+    ///
+    /// [`ValuesError`] if there are not as many, or one is not finite.
+    pub fn with_positions(&self, positions: Vec<Point>) -> Result<Self, ValuesError> {
+        check_values(&positions, self.positions.len())?;
+        Ok(Self { positions: positions.into(), ..self.clone() })
     }
 
     /// The position of every vertex, those in no face included.
@@ -109,6 +127,22 @@ impl Cage {
     /// What was accepted but should be known.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
+    }
+
+    pub(crate) fn shared_positions(&self) -> &Arc<[Point]> {
+        &self.positions
+    }
+
+    pub(crate) fn shared_topology(&self) -> &Arc<Topology> {
+        &self.topology
+    }
+
+    pub(crate) fn shared_tags(&self) -> &Arc<Tags> {
+        &self.tags
+    }
+
+    pub(crate) fn shared_primvars(&self) -> &Arc<[Primvar]> {
+        &self.primvars
     }
 
     /// The number of vertices that are in a face.
@@ -152,6 +186,40 @@ impl Cage {
 
     fn used_vertices(&self) -> impl Iterator<Item = VertexId> {
         vertices(&self.topology).filter(|&v| self.topology.is_used(v))
+    }
+}
+
+/// Why values cannot be those of the vertices of a cage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ValuesError {
+    /// There are not as many as vertices.
+    #[error("there are {found} values for {expected} vertices: give one for each")]
+    Count {
+        /// The number of vertices.
+        expected: usize,
+        /// The number of values.
+        found: usize,
+    },
+    /// A number is NaN or infinite.
+    #[error("the value of vertex {} is not finite: give it finite numbers", vertex.0)]
+    NotFinite {
+        /// The first such vertex.
+        vertex: VertexId,
+    },
+}
+
+/// Checks values of so many vertices.
+pub(crate) fn check_values<const N: usize>(
+    values: &[[f64; N]],
+    num_vertices: usize,
+) -> Result<(), ValuesError> {
+    if values.len() != num_vertices {
+        return Err(ValuesError::Count { expected: num_vertices, found: values.len() });
+    }
+    match values.iter().position(|value| value.iter().any(|x| !x.is_finite())) {
+        Some(v) => Err(ValuesError::NotFinite { vertex: VertexId(v as u32) }),
+        None => Ok(()),
     }
 }
 
@@ -537,6 +605,6 @@ mod tests {
     #[test]
     fn cages_can_be_shared_between_threads() {
         fn shareable<T: Send + Sync>() {}
-        shareable::<std::sync::Arc<Cage>>();
+        shareable::<Arc<Cage>>();
     }
 }

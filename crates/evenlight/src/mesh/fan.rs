@@ -16,43 +16,9 @@
 //! bi-3 patches up to the sharp edge. So is the smooth vertex of four faces. What is left is
 //! extraordinary.
 
-use super::sharpness::{Sharpness, VertexRule, is_semi_sharp};
+use super::sharpness::{Sharpness, is_semi_sharp};
 use super::{HalfEdgeId, Topology, VertexId};
-
-/// The shape of a fan that no refinement changes any more.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Fan {
-    /// The number of its faces.
-    pub faces: usize,
-    /// Whether it goes all around the vertex, with one sharp edge or none.
-    pub is_closed: bool,
-    /// Whether it is closed and has a sharp edge.
-    pub has_dart: bool,
-    /// The rule of the vertex.
-    pub rule: VertexRule,
-}
-
-impl Fan {
-    /// Whether neither the vertex nor an edge at it is sharp.
-    pub fn is_smooth(self) -> bool {
-        self.is_closed && !self.has_dart && self.rule == VertexRule::Smooth
-    }
-
-    /// Whether its faces are bi-3 patches if their other corners allow it.
-    pub fn is_regular(self) -> bool {
-        let Self { faces, is_closed, .. } = self;
-        match self.rule {
-            VertexRule::Smooth => self.is_smooth() && faces == 4,
-            VertexRule::Crease => !is_closed && faces == 2,
-            VertexRule::Corner => !is_closed && faces == 1,
-        }
-    }
-
-    /// The number of its edges.
-    pub fn lines(self) -> usize {
-        self.faces + usize::from(!self.is_closed)
-    }
-}
+use crate::net::{Fan, VertexRule};
 
 /// A fan of a mesh; `first` leaves the vertex clockwise-most, along the sharp edge if there is one.
 #[derive(Clone, Copy, Debug)]

@@ -30,7 +30,8 @@ use super::nets::RegularNet;
 use super::refine::{Level, Origin};
 use super::sharpness::{Beyond, Sharpness, half_edges_of, single};
 use super::{
-    BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, Topology, VertexId, VertexRule,
+    BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, Tags, Topology, VertexId,
+    VertexRule,
 };
 
 /// The place of an extraordinary point in the cage.
@@ -64,7 +65,8 @@ pub struct Extraordinary {
 /// All extraordinary points, vertices first, each kind in the order of its numbers; those without
 /// a surface around them, which only their valence makes extraordinary, at the end.
 pub fn extraordinary_points(cage: &Cage, boundary: BoundaryRule) -> Vec<Extraordinary> {
-    let mut points = Plan::new(cage, boundary, BTreeMap::new()).points;
+    let plan = Plan::new(cage.topology(), cage.tags(), boundary, BTreeMap::new());
+    let mut points = plan.points;
     points.extend(uncovered_points(cage, boundary));
     points
 }
@@ -102,10 +104,14 @@ pub fn is_omitted(cage: &Cage, boundary: BoundaryRule, face: FaceId) -> bool {
 /// The faces without a surface, in order: holes, and under the rule "none" those with a vertex on
 /// the boundary, unless both boundary edges there have been made infinitely sharp.
 pub fn omitted_faces(cage: &Cage, boundary: BoundaryRule) -> Vec<FaceId> {
-    let mut omitted = cage.tags().holes.clone();
+    omitted(cage.topology(), cage.tags(), boundary)
+}
+
+fn omitted(topology: &Topology, tags: &Tags, boundary: BoundaryRule) -> Vec<FaceId> {
+    let mut omitted = tags.holes.clone();
     if boundary == BoundaryRule::None {
-        let is_open = open_vertices(cage);
-        let faces = cage.topology().faces();
+        let is_open = open_vertices(topology, tags);
+        let faces = topology.faces();
         let touches = |f: &FaceId| faces.corners(*f).iter().any(|v| is_open[v.index()]);
         omitted.extend(faces.ids().filter(touches));
     }
@@ -115,10 +121,9 @@ pub fn omitted_faces(cage: &Cage, boundary: BoundaryRule) -> Vec<FaceId> {
 }
 
 /// Whether each vertex is at an edge of the boundary that no tag makes infinitely sharp.
-fn open_vertices(cage: &Cage) -> Vec<bool> {
-    let topology = cage.topology();
+fn open_vertices(topology: &Topology, tags: &Tags) -> Vec<bool> {
     let mut is_sharp = vec![false; topology.half_edges().len()];
-    for crease in &cage.tags().creases {
+    for crease in &tags.creases {
         for h in half_edges_of(topology, crease.edge) {
             is_sharp[h.index()] = single(crease.sharpness) >= INFINITELY_SHARP;
         }
@@ -186,13 +191,13 @@ pub(crate) struct Plan {
 
 impl Plan {
     pub(crate) fn new(
-        cage: &Cage,
+        t: &Topology,
+        tags: &Tags,
         boundary: BoundaryRule,
         beyond: BTreeMap<VertexId, Beyond>,
     ) -> Self {
-        let t = cage.topology();
-        let omitted = omitted_faces(cage, boundary);
-        let mut sharpness = vec![Sharpness::new(t, cage.tags(), boundary).with_beyond(beyond)];
+        let omitted = omitted(t, tags, boundary);
+        let mut sharpness = vec![Sharpness::new(t, tags, boundary).with_beyond(beyond)];
         let mut levels: Vec<Level> = Vec::new();
         let mut planner = Planner::new(t);
         let mut split = planner.cover_cage(&Features::new(t, &sharpness[0]), &omitted);

@@ -18,19 +18,19 @@ pub(crate) mod sharpness;
 mod tags;
 mod topology;
 
-pub use check::{Cage, PrimvarFault};
-pub use fan::Fan;
+pub(crate) use check::check_values;
+pub use check::{Cage, PrimvarFault, ValuesError};
 pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
 pub use marks::Marks;
 pub(crate) use nets::{cnet_vertices, fan_vertices};
-pub use sharpness::VertexRule;
 pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,
     Primvar, Tags,
 };
 pub use topology::{HalfEdgeId, Ring, Topology};
 
+pub use crate::net::{Fan, VertexRule};
 use crate::point::Point;
 
 /// The number of a vertex, counted from 0 in the order of the file.

@@ -2,7 +2,7 @@
 
 use super::fan::{PlacedFan, sectors};
 use super::{HalfEdgeId, Topology, VertexId};
-use crate::point::{Point, add_scaled, scale};
+use crate::point::{add_scaled, scale};
 
 /// The control net of a regular piece: the refinement level and the 4x4 vertices, the index along
 /// v fastest. Beyond a sharp edge there is no vertex, but the mirror image of the row behind.
@@ -83,8 +83,8 @@ impl RegularNet {
 
     /// The control points, from the positions of the net's level.
     #[inline]
-    pub(crate) fn points(&self, positions: &[Point]) -> [Point; 16] {
-        let mut points = [[0.0; 3]; 16];
+    pub(crate) fn points<const N: usize>(&self, positions: &[[f64; N]]) -> [[f64; N]; 16] {
+        let mut points = [[0.0; N]; 16];
         for (p, v) in points.iter_mut().zip(&self.vertices) {
             *p = positions[v.index()];
         }
@@ -97,7 +97,7 @@ impl RegularNet {
     /// Enters the nodes beyond sharp edges. With p(-1) = 2 p(0) - p(1) the second derivative
     /// across the edge is zero there, which is what refining with the crease rule leads to.
     #[cold]
-    fn mirror(&self, p: &mut [Point; 16]) {
+    fn mirror<const N: usize>(&self, p: &mut [[f64; N]; 16]) {
         let is_sharp = |k: usize| self.sharp_sides >> k & 1 == 1;
         let mut extend = |to: usize, from: usize, next: usize| {
             let mut q = scale(2.0, p[from]);

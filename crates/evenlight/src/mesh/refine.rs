@@ -18,8 +18,9 @@
 //! goes on. Where the chosen part touches itself in a single vertex, the finer mesh has one
 //! vertex per fan there.
 
-use super::sharpness::{Sharpness, Spoke, VertexRule, fraction};
+use super::sharpness::{Sharpness, Spoke, fraction};
 use super::{FaceId, Faces, HalfEdgeId, Topology, VertexId};
+use crate::net::VertexRule;
 
 /// Where a refined vertex comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -21,29 +21,6 @@ use std::collections::BTreeMap;
 
 use super::{BoundaryRule, CreaseMethod, HalfEdgeId, INFINITELY_SHARP, Tags, Topology, VertexId};
 
-/// What rules a vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum VertexRule {
-    /// The rule of Catmull-Clark for smooth surfaces; also for a single sharp edge (a dart).
-    Smooth,
-    /// A cubic spline along the two sharp edges.
-    Crease,
-    /// The vertex stays where it is.
-    Corner,
-}
-
-impl VertexRule {
-    /// The rule of a vertex of this sharpness with so many sharp edges.
-    pub(crate) fn of(sharpness: f64, sharp_edges: usize) -> Self {
-        match sharp_edges {
-            _ if sharpness > 0.0 => Self::Corner,
-            0 | 1 => Self::Smooth,
-            2 => Self::Crease,
-            _ => Self::Corner,
-        }
-    }
-}
-
 /// The sharpness of all edges and vertices of one level of refinement.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sharpness {

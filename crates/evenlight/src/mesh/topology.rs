@@ -70,6 +70,32 @@ impl Topology {
         if errors.is_empty() { Ok(topology) } else { Err(errors) }
     }
 
+    /// The same faces over other vertices, cut along edges at whose ends the two faces have different
+    /// ones: what [`Topology::build`] finds by sorting.
+    ///
+    /// # Errors
+    ///
+    /// If the faces of a vertex do not form one fan.
+    pub(crate) fn with_vertices(
+        &self,
+        faces: Faces,
+        num_vertices: usize,
+    ) -> Result<Self, Vec<MeshError>> {
+        let mut twin = vec![NONE; self.twin.len()];
+        let at = faces.all_corners();
+        for h in self.half_edges() {
+            let Some(other) = self.twin(h) else { continue };
+            let ends = [h, other, self.next(h), self.next(other)].map(|h| at[h.index()]);
+            if ends[0] == ends[3] && ends[1] == ends[2] {
+                twin[h.index()] = other.0;
+            }
+        }
+        let (outgoing, num_sectors) = (vec![NONE; num_vertices], vec![0; num_vertices]);
+        let mut topology = Self { faces, face: self.face.clone(), twin, outgoing, num_sectors };
+        let errors = topology.form_fans();
+        if errors.is_empty() { Ok(topology) } else { Err(errors) }
+    }
+
     /// Finds the twin of every half-edge, by sorting the half-edges under their lower vertex.
     fn pair_half_edges(&mut self, num_vertices: usize) -> Vec<MeshError> {
         let mut errors = Vec::new();

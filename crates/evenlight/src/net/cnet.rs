@@ -14,7 +14,6 @@
 //! ```
 
 use super::NodeRef;
-use crate::point::{Point, add_scaled};
 
 /// The number of nodes that a sector of a c-net owns.
 pub(crate) const CNET_NODES: usize = 6;
@@ -35,14 +34,14 @@ pub(crate) fn cnet_node(a: isize, b: isize) -> Option<NodeRef> {
 
 /// The 6n + 1 control points of two rings of quads around an extraordinary vertex.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CNet {
+pub struct CNet<const N: usize = 3> {
     /// The extraordinary vertex e.
-    pub center: Point,
+    pub center: [f64; N],
     /// Per sector the nodes (0,1), (0,2), (1,1), (1,2), (2,1), (2,2).
-    pub sectors: Vec<[Point; 6]>,
+    pub sectors: Vec<[[f64; N]; 6]>,
 }
 
-impl CNet {
+impl<const N: usize> CNet<N> {
     /// The valence.
     pub fn valence(&self) -> usize {
         self.sectors.len()
@@ -50,14 +49,14 @@ impl CNet {
 
     /// The limit of e under Catmull-Clark subdivision \[HKD93\]:
     /// (n e + 4/n sum c_6 + 1/n sum c_5) / (n + 5).
-    pub fn catmull_clark_limit(&self) -> Point {
+    pub fn catmull_clark_limit(&self) -> [f64; N] {
         let n = self.valence() as f64;
         self.weighted(n / (n + 5.0), 4.0 / (n * (n + 5.0)), 1.0 / (n * (n + 5.0)))
     }
 
     /// The limit point c_0 of all schemes but Catmull-Clark [KP23-EG, eq. 3]: Catmull-Clark's,
     /// slightly corrected for n = 3.
-    pub fn evolving_guide_limit(&self) -> Point {
+    pub fn evolving_guide_limit(&self) -> [f64; N] {
         if self.valence() == 3 {
             self.weighted(11.0 / 32.0, 1.0 / 6.0, 5.0 / 96.0)
         } else {
@@ -68,10 +67,10 @@ impl CNet {
     /// `e` times `center` + every direct neighbour (0,1) times `direct` + every diagonal
     /// neighbour (1,1) times `diagonal`. The sums are formed relative to e, so that a net far
     /// from the origin loses no digits.
-    fn weighted(&self, center: f64, direct: f64, diagonal: f64) -> Point {
+    fn weighted(&self, center: f64, direct: f64, diagonal: f64) -> [f64; N] {
         let mut sum = self.center;
         for sector in &self.sectors {
-            for k in 0..3 {
+            for k in 0..N {
                 sum[k] += direct * (sector[0][k] - self.center[k])
                     + diagonal * (sector[2][k] - self.center[k]);
             }
@@ -81,31 +80,20 @@ impl CNet {
     }
 
     /// The net moved so that `origin` becomes the origin.
-    pub(crate) fn relative_to(&self, origin: Point) -> Self {
-        let moved = |p: Point| crate::point::sub(p, origin);
+    pub(crate) fn relative_to(&self, origin: [f64; N]) -> Self {
+        let moved = |p: [f64; N]| crate::point::sub(p, origin);
         Self {
             center: moved(self.center),
             sectors: self.sectors.iter().map(|s| s.map(moved)).collect(),
         }
     }
 
-    /// The node (a,b) of sector `s`, -2 <= a,b <= 2.
-    pub(crate) fn node(&self, s: usize, a: isize, b: isize) -> Point {
+    /// A node seen from sector `s`, e if it is none of a sector.
+    pub(super) fn node(&self, s: usize, at: Option<NodeRef>) -> [f64; N] {
         let n = self.valence() as isize;
-        cnet_node(a, b).map_or(self.center, |at| {
+        at.map_or(self.center, |at| {
             self.sectors[(s as isize + at.turn).rem_euclid(n) as usize][at.node]
         })
-    }
-
-    /// The tensor product of two univariate masks on the nodes of sector `s`.
-    pub(crate) fn tensor(&self, s: usize, u: &[(isize, f64)], v: &[(isize, f64)]) -> Point {
-        let mut sum = [0.0; 3];
-        for &(a, wa) in u {
-            for &(b, wb) in v {
-                add_scaled(&mut sum, wa * wb, self.node(s, a, b));
-            }
-        }
-        sum
     }
 }
 

@@ -16,8 +16,10 @@
 //!   x --- x --- x          + centre          x: line s-1, owned by sector s-1
 //! ```
 
+use std::sync::OnceLock;
+
 use super::{CNet, NodeRef, cnet_node};
-use crate::point::{Point, add_scaled, sub};
+use crate::point::{add_scaled, sub};
 
 /// The number of nodes that a sector of a d-net owns.
 pub(crate) const DNET_NODES: usize = 12;
@@ -37,22 +39,27 @@ pub(crate) fn dnet_node(i: usize, j: usize) -> NodeRef {
 
 /// The 12n control points of a bi-4 C2 spline with a hole at an extraordinary point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DNet {
+pub struct DNet<const N: usize = 3> {
     /// Per sector the nodes 00 10 20 30 01 11 21 31 02 12 22 32.
-    pub sectors: Vec<[Point; 12]>,
+    pub sectors: Vec<[[f64; N]; 12]>,
 }
 
-impl DNet {
+impl<const N: usize> DNet<N> {
     /// The d-net of a c-net: the same tensor-product spline around the hole, in one variable
     ///
     /// - bi-4, by degree raising [KP23-EG, Fig. 5]: a node on a grid line is (1,10,1)/12 of the
     ///   grid nodes, one in the middle of a quad (1,1)/2;
     /// - bi-3, by knot insertion [KP23-QAS, Fig. 3]: (1,6,1)/8 and (1,1)/2.
-    pub fn from_cnet(cnet: &CNet, spline: Spline) -> Self {
-        let mask = |i| spline.mask(i);
-        let sectors = (0..cnet.valence())
-            .map(|s| std::array::from_fn(|k| cnet.tensor(s, &mask(k % 4), &mask(k / 4))))
-            .collect();
+    pub fn from_cnet(cnet: &CNet<N>, spline: Spline) -> Self {
+        let rows = spline.rows();
+        let mut sectors = Vec::with_capacity(cnet.valence());
+        for s in 0..cnet.valence() {
+            let mut sector = [[0.0; N]; DNET_NODES];
+            for (node, row) in sector.iter_mut().zip(rows) {
+                row.iter().for_each(|&(at, w)| add_scaled(node, w, cnet.node(s, at)));
+            }
+            sectors.push(sector);
+        }
         Self { sectors }
     }
 
@@ -70,7 +77,7 @@ impl DNet {
     /// # Panics
     ///
     /// If there are no sectors.
-    pub fn center(&self, spline: Spline) -> Point {
+    pub fn center(&self, spline: Spline) -> [f64; N] {
         let first = self.sectors[0][0];
         let weights = center_weights(self.valence(), spline);
         let mut sum = first;
@@ -92,7 +99,21 @@ pub enum Spline {
     BiQuartic,
 }
 
+/// A node of a d-net by those of a c-net.
+type MaskRow = Vec<(Option<NodeRef>, f64)>;
+
 impl Spline {
+    /// The nodes of sector 0 by those of a c-net.
+    fn rows(self) -> &'static [MaskRow; DNET_NODES] {
+        static ROWS: [OnceLock<[MaskRow; DNET_NODES]>; 2] = [const { OnceLock::new() }; 2];
+        let row = |k: usize| {
+            let [u, v] = [k % 4, k / 4].map(|i| self.mask(i));
+            let terms = u.iter().flat_map(|a| v.iter().map(move |b| (a, b)));
+            terms.map(|(a, b)| (cnet_node(a.0, b.0), a.1 * b.1)).collect()
+        };
+        ROWS[self as usize].get_or_init(|| std::array::from_fn(row))
+    }
+
     /// The univariate mask of d-net index `i` on the c-net, by grid positions from the centre.
     fn mask(self, i: usize) -> Vec<(isize, f64)> {
         let p = 3 - i as isize;

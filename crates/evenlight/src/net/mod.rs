@@ -15,12 +15,14 @@
 
 mod cnet;
 mod dnet;
+mod fan;
 mod quadratic;
 
 pub use cnet::CNet;
 pub(crate) use cnet::{CNET_NODES, cnet_node};
 pub(crate) use dnet::{DNET_NODES, dnet_node};
 pub use dnet::{DNet, Spline};
+pub use fan::{Fan, VertexRule};
 pub use quadratic::Quadratic;
 pub(crate) use quadratic::{Expansion, turned};
 

@@ -25,18 +25,18 @@ use crate::point::{Point, Vector, add, add_scaled, scale, sub};
 ///
 /// Any six points are a quadratic; that the other sectors see the same one is by construction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quadratic {
+pub struct Quadratic<const N: usize = 3> {
     /// q_1 to q_6 of sector 0.
-    pub coefs: [Point; 6],
+    pub coefs: [[f64; N]; 6],
 }
 
 /// alpha, beta, gamma, delta, epsilon of a quadratic.
-pub(crate) type Expansion = [Vector; 5];
+pub(crate) type Expansion<const N: usize = 3> = [[f64; N]; 5];
 
-impl Quadratic {
+impl<const N: usize> Quadratic<N> {
     /// The quadratic with centre `p` and the expansion alpha, beta, gamma, delta, epsilon.
-    pub(crate) fn from_expansion(p: Point, [a, b, uu, uv, vv]: Expansion) -> Self {
-        let at = |terms: &[(f64, Vector)]| {
+    pub(crate) fn from_expansion(p: [f64; N], [a, b, uu, uv, vv]: Expansion<N>) -> Self {
+        let at = |terms: &[(f64, [f64; N])]| {
             let mut sum = p;
             terms.iter().for_each(|&(w, x)| add_scaled(&mut sum, w, x));
             sum
@@ -54,7 +54,7 @@ impl Quadratic {
     }
 
     /// alpha, beta, gamma, delta, epsilon in sector 0.
-    pub(crate) fn expansion(&self) -> Expansion {
+    pub(crate) fn expansion(&self) -> Expansion<N> {
         let [p, ..] = self.coefs;
         let [q2, q3, q4, q5, q6] = [1, 2, 3, 4, 5].map(|k| sub(self.coefs[k], p));
         [
@@ -67,7 +67,7 @@ impl Quadratic {
     }
 
     /// The position of the centre, p = q_1.
-    pub fn center(&self) -> Point {
+    pub fn center(&self) -> [f64; N] {
         self.coefs[0]
     }
 
@@ -80,7 +80,7 @@ impl Quadratic {
     /// let q = Quadratic { coefs: [[1.0, 2.0, 3.0]; 6] };
     /// assert_eq!(q.at(0.3, 0.4), [1.0, 2.0, 3.0]);
     /// ```
-    pub fn at(&self, u: f64, v: f64) -> Point {
+    pub fn at(&self, u: f64, v: f64) -> [f64; N] {
         let mut sum = self.center();
         for (w, x) in [u, v, u * u, u * v, v * v].into_iter().zip(self.expansion()) {
             add_scaled(&mut sum, w, x);
@@ -96,12 +96,6 @@ impl Quadratic {
         Self::from_expansion(self.center(), expansion)
     }
 
-    /// The image under an affine map, linear part `matrix` (rows) and `translation`.
-    pub fn transformed(&self, matrix: [Vector; 3], translation: Vector) -> Self {
-        let map = |p: Point| add(matrix.map(|row| crate::point::dot(row, p)), translation);
-        Self { coefs: self.coefs.map(map) }
-    }
-
     /// The common quadratic nearest to one proposal per sector, each by its coefficients in that
     /// sector: every proposal is carried to sector 0, and the mean is taken [KP23-QAS, eq. 4, 5].
     ///
@@ -110,11 +104,11 @@ impl Quadratic {
     /// # Panics
     ///
     /// If there are fewer than three sectors.
-    pub fn from_proposals(proposals: &[[Point; 6]]) -> Self {
+    pub fn from_proposals(proposals: &[[[f64; N]; 6]]) -> Self {
         let n = proposals.len();
         assert!(n >= 3, "an extraordinary point has three sectors or more, not {n}");
         let c = sector_cosine(n);
-        let (mut p, mut mean) = ([0.0; 3], [[0.0; 3]; 5]);
+        let (mut p, mut mean) = ([0.0; N], [[0.0; N]; 5]);
         for (s, &coefs) in proposals.iter().enumerate() {
             let proposal = Self { coefs };
             let carried = (s..n).fold(proposal.expansion(), |e, _| turned(c, e));
@@ -128,11 +122,19 @@ impl Quadratic {
     }
 }
 
+impl Quadratic {
+    /// The image under an affine map, linear part `matrix` (rows) and `translation`.
+    pub fn transformed(&self, matrix: [Vector; 3], translation: Vector) -> Self {
+        let map = |p: Point| add(matrix.map(|row| crate::point::dot(row, p)), translation);
+        Self { coefs: self.coefs.map(map) }
+    }
+}
+
 /// The expansion in the coordinates of the next sector, `c` the cosine of the angle between two
 /// lines: the new line is 2 c times line s minus line s-1.
-pub(crate) fn turned(c: f64, [a, b, uu, uv, vv]: Expansion) -> Expansion {
-    let sum = |terms: [(f64, Vector); 3]| {
-        let mut sum = [0.0; 3];
+pub(crate) fn turned<const N: usize>(c: f64, [a, b, uu, uv, vv]: Expansion<N>) -> Expansion<N> {
+    let sum = |terms: [(f64, [f64; N]); 3]| {
+        let mut sum = [0.0; N];
         terms.into_iter().for_each(|(w, x)| add_scaled(&mut sum, w, x));
         sum
     };

@@ -1,96 +1,96 @@
 //! What a surface can be asked for: position, derivatives, normal and curvature.
 
 use super::jet::{FirstJet, Jet, Shape, SurfacePoint};
-use crate::point::Point;
 
 /// What is wanted at a place of a surface; nothing is computed that the type does not hold.
 ///
 /// | type | |
 /// | --- | --- |
-/// | [`Point`] | position |
+/// | `[f64; N]` | position, or value |
 /// | [`FirstJet`] | and first derivatives |
 /// | [`Jet`] | and second derivatives |
-/// | [`SurfacePoint`] | and unit normal and curvature |
+/// | [`SurfacePoint`] | and unit normal and curvature, N = 3 only |
 ///
 /// The numbers that two of them have in common are the same bits. There are no other
 /// implementations.
-pub trait Answer: Copy + Send + Sync + Parts {
+pub trait Answer<const N: usize = 3>: Copy + Send + Sync + Parts<N> {
     /// NaN everywhere: the answer where there is no surface.
     const NAN: Self;
 }
 
 /// How an answer is made; not to be named outside.
-pub trait Parts {
+pub trait Parts<const N: usize = 3> {
     /// The highest order of derivatives that it holds.
     const ORDER: usize;
 
     /// From derivatives up to that order, and the shape if it is wanted.
-    fn from_parts(jet: Jet, shape: impl FnOnce(&Jet) -> Shape) -> Self;
+    fn from_parts(jet: Jet<N>, shape: impl FnOnce(&Jet<N>) -> Shape) -> Self;
 
     /// The answer in other parameters: `change` knows what they do to derivatives.
-    fn in_parameters(self, change: impl FnOnce(&Jet) -> Jet) -> Self;
+    fn in_parameters(self, change: impl FnOnce(&Jet<N>) -> Jet<N>) -> Self;
 }
 
-const NAN: Point = [f64::NAN; 3];
-
-impl Answer for Point {
-    const NAN: Self = NAN;
+impl<const N: usize> Answer<N> for [f64; N] {
+    const NAN: Self = [f64::NAN; N];
 }
 
-impl Parts for Point {
+impl<const N: usize> Parts<N> for [f64; N] {
     const ORDER: usize = 0;
 
     #[inline(always)]
-    fn from_parts(jet: Jet, _: impl FnOnce(&Jet) -> Shape) -> Self {
+    fn from_parts(jet: Jet<N>, _: impl FnOnce(&Jet<N>) -> Shape) -> Self {
         jet.p
     }
 
     #[inline(always)]
-    fn in_parameters(self, _: impl FnOnce(&Jet) -> Jet) -> Self {
+    fn in_parameters(self, _: impl FnOnce(&Jet<N>) -> Jet<N>) -> Self {
         self
     }
 }
 
-impl Answer for FirstJet {
-    const NAN: Self = Self { p: NAN, du: NAN, dv: NAN };
+impl<const N: usize> Answer<N> for FirstJet<N> {
+    const NAN: Self = Self { p: [f64::NAN; N], du: [f64::NAN; N], dv: [f64::NAN; N] };
 }
 
-impl Parts for FirstJet {
+impl<const N: usize> Parts<N> for FirstJet<N> {
     const ORDER: usize = 1;
 
     #[inline(always)]
-    fn from_parts(jet: Jet, _: impl FnOnce(&Jet) -> Shape) -> Self {
+    fn from_parts(jet: Jet<N>, _: impl FnOnce(&Jet<N>) -> Shape) -> Self {
         Self { p: jet.p, du: jet.du, dv: jet.dv }
     }
 
     #[inline(always)]
-    fn in_parameters(self, change: impl FnOnce(&Jet) -> Jet) -> Self {
+    fn in_parameters(self, change: impl FnOnce(&Jet<N>) -> Jet<N>) -> Self {
         let jet = change(&Jet { p: self.p, du: self.du, dv: self.dv, ..Jet::default() });
         Self { p: jet.p, du: jet.du, dv: jet.dv }
     }
 }
 
-impl Answer for Jet {
-    const NAN: Self = Self { p: NAN, du: NAN, dv: NAN, duu: NAN, duv: NAN, dvv: NAN };
+impl<const N: usize> Answer<N> for Jet<N> {
+    const NAN: Self = {
+        let nan = [f64::NAN; N];
+        Self { p: nan, du: nan, dv: nan, duu: nan, duv: nan, dvv: nan }
+    };
 }
 
-impl Parts for Jet {
+impl<const N: usize> Parts<N> for Jet<N> {
     const ORDER: usize = 2;
 
     #[inline(always)]
-    fn from_parts(jet: Jet, _: impl FnOnce(&Jet) -> Shape) -> Self {
+    fn from_parts(jet: Jet<N>, _: impl FnOnce(&Jet<N>) -> Shape) -> Self {
         jet
     }
 
     #[inline(always)]
-    fn in_parameters(self, change: impl FnOnce(&Jet) -> Jet) -> Self {
+    fn in_parameters(self, change: impl FnOnce(&Jet<N>) -> Jet<N>) -> Self {
         change(&self)
     }
 }
 
 impl Answer for SurfacePoint {
     const NAN: Self =
-        Self { jet: <Jet as Answer>::NAN, normal: NAN, gauss: f64::NAN, mean: f64::NAN };
+        Self { jet: <Jet as Answer>::NAN, normal: [f64::NAN; 3], gauss: f64::NAN, mean: f64::NAN };
 }
 
 impl Parts for SurfacePoint {

@@ -1,35 +1,44 @@
 //! Position and derivatives at a point of a surface, and what follows from them.
 
 use super::basis::BasisJet;
-use crate::point::{Point, Vector, add_scaled, cross, dot, scale, unit};
+use crate::point::{Vector, add_scaled, cross, dot, in_space, scale, unit};
 
-/// Position and the derivatives up to order two of a map (u,v) -> space.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Jet {
-    /// The position.
-    pub p: Point,
+/// Position and the derivatives up to order two of a map (u,v) -> space, or of the N numbers of a
+/// primvar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jet<const N: usize = 3> {
+    /// The position, or the value.
+    pub p: [f64; N],
     /// The derivative in u.
-    pub du: Vector,
+    pub du: [f64; N],
     /// The derivative in v.
-    pub dv: Vector,
+    pub dv: [f64; N],
     /// The second derivative in u.
-    pub duu: Vector,
+    pub duu: [f64; N],
     /// The mixed second derivative.
-    pub duv: Vector,
+    pub duv: [f64; N],
     /// The second derivative in v.
-    pub dvv: Vector,
+    pub dvv: [f64; N],
 }
 
-impl Jet {
+impl<const N: usize> Default for Jet<N> {
+    #[inline]
+    fn default() -> Self {
+        let zero = [0.0; N];
+        Self { p: zero, du: zero, dv: zero, duu: zero, duv: zero, dvv: zero }
+    }
+}
+
+impl<const N: usize> Jet<N> {
     /// The jet of sum_ij bu_i bv_j p(i,j), from the first `counts` basis functions in each
     /// variable.
-    pub(crate) fn tensor_product<const M: usize, const N: usize>(
-        bu: &BasisJet<M>,
-        bv: &BasisJet<N>,
+    pub(crate) fn tensor_product<const K: usize>(
+        bu: &BasisJet<K>,
+        bv: &BasisJet<K>,
         counts: [usize; 2],
-        p: impl Fn(usize, usize) -> Point,
+        p: impl Fn(usize, usize) -> [f64; N],
     ) -> Self {
-        let mut along_v = [[[0.0; 3]; 3]; M];
+        let mut along_v = [[[0.0; N]; 3]; K];
         for (i, row) in along_v.iter_mut().enumerate().take(counts[0]) {
             *row = weighted_sums(bv, counts[1], |j| p(i, j));
         }
@@ -39,7 +48,7 @@ impl Jet {
     }
 
     /// Position and derivatives in the order p, du, dv, duu, duv, dvv.
-    pub fn rows(&self) -> [Vector; 6] {
+    pub fn rows(&self) -> [[f64; N]; 6] {
         [self.p, self.du, self.dv, self.duu, self.duv, self.dvv]
     }
 
@@ -55,6 +64,17 @@ impl Jet {
         }
     }
 
+    /// The unit normal and the curvatures of the first three numbers; NaN where the derivatives are
+    /// parallel or zero.
+    #[inline]
+    pub(crate) fn shape(&self) -> Shape {
+        let [du, dv] = [self.du, self.dv].map(in_space);
+        let area = cross(du, dv);
+        Shape::new(du, dv, [self.duu, self.duv, self.dvv].map(|r| dot(area, in_space(r))))
+    }
+}
+
+impl Jet {
     /// The unit normal du x dv; NaN where the derivatives are parallel or zero.
     pub fn normal(&self) -> Vector {
         normal_direction(self.du, self.dv).0
@@ -78,24 +98,23 @@ impl Jet {
         let Shape { gauss, mean, .. } = self.shape();
         (gauss, mean)
     }
-
-    /// The unit normal and the curvatures; NaN where the derivatives are parallel or zero.
-    #[inline]
-    pub(crate) fn shape(&self) -> Shape {
-        let area = cross(self.du, self.dv);
-        Shape::new(self.du, self.dv, [self.duu, self.duv, self.dvv].map(|r| dot(area, r)))
-    }
 }
 
-/// Position and first derivatives of a map (u,v) -> space.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FirstJet {
-    /// The position.
-    pub p: Point,
+/// Position and first derivatives of a map (u,v) -> space, or of the N numbers of a primvar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstJet<const N: usize = 3> {
+    /// The position, or the value.
+    pub p: [f64; N],
     /// The derivative in u.
-    pub du: Vector,
+    pub du: [f64; N],
     /// The derivative in v.
-    pub dv: Vector,
+    pub dv: [f64; N],
+}
+
+impl<const N: usize> Default for FirstJet<N> {
+    fn default() -> Self {
+        Self { p: [0.0; N], du: [0.0; N], dv: [0.0; N] }
+    }
 }
 
 impl FirstJet {
@@ -159,19 +178,17 @@ fn normal_direction(ru: Vector, rv: Vector) -> (Vector, f64) {
 
 /// The sums of values, first and second derivatives of the first `count` basis functions times
 /// points.
-fn weighted_sums<const N: usize>(
-    basis: &BasisJet<N>,
+fn weighted_sums<const K: usize, const N: usize>(
+    basis: &BasisJet<K>,
     count: usize,
-    p: impl Fn(usize) -> Point,
-) -> [Vector; 3] {
-    let [values, first, second] = basis;
-    let weights = values.iter().zip(first).zip(second).take(count);
-    let mut sums = [[0.0; 3]; 3];
-    for (k, ((&w0, &w1), &w2)) in weights.enumerate() {
+    p: impl Fn(usize) -> [f64; N],
+) -> [[f64; N]; 3] {
+    let mut sums = [[0.0; N]; 3];
+    for k in 0..count.min(K) {
         let p = p(k);
-        add_scaled(&mut sums[0], w0, p);
-        add_scaled(&mut sums[1], w1, p);
-        add_scaled(&mut sums[2], w2, p);
+        for (sum, weights) in sums.iter_mut().zip(basis) {
+            add_scaled(sum, weights[k], p);
+        }
     }
     sums
 }

@@ -7,36 +7,36 @@
 //!   p   = sum_j B_j(v) r_j
 //! ```
 //!
-//! Sizes are constants, so that loops are unrolled and become vector instructions; the order of
+//! Sizes, K = d + 1 coefficients a side of N numbers each, are constants, so that loops are unrolled and become vector instructions; the order of
 //! summation is fixed, so that results are the same bits everywhere. What is not asked for
 //! (derivatives beyond `order`) is left out, and zero in the result.
 
 use super::Jet;
 use super::basis::{BasisJet, bernstein};
-use crate::point::{Point, Vector, scale};
+use crate::point::scale;
 
 /// The jet up to `order` (0, 1 or 2) of sum_ij bu_i bv_j p_ij.
 #[inline(always)]
-pub(crate) fn tensor_jet<const N: usize>(
+pub(crate) fn tensor_jet<const K: usize, const N: usize>(
     order: usize,
-    bu: &BasisJet<N>,
-    bv: &BasisJet<N>,
-    p: &[[Point; N]; N],
-) -> Jet {
+    bu: &BasisJet<K>,
+    bv: &BasisJet<K>,
+    p: &[[[f64; N]; K]; K],
+) -> Jet<N> {
     Rows::new(order, bu, p).jet(order, bv)
 }
 
 /// The sums over the slower index, of all derivatives in u up to the order asked for.
-struct Rows<const N: usize> {
-    r: [Point; N],
-    r_u: [Point; N],
-    r_uu: [Point; N],
+struct Rows<const K: usize, const N: usize> {
+    r: [[f64; N]; K],
+    r_u: [[f64; N]; K],
+    r_uu: [[f64; N]; K],
 }
 
-impl<const N: usize> Rows<N> {
+impl<const K: usize, const N: usize> Rows<K, N> {
     #[inline(always)]
-    fn new(order: usize, bu: &BasisJet<N>, p: &[[Point; N]; N]) -> Self {
-        let none = [[0.0; 3]; N];
+    fn new(order: usize, bu: &BasisJet<K>, p: &[[[f64; N]; K]; K]) -> Self {
+        let none = [[0.0; N]; K];
         Self {
             r: sum_of_rows(&bu[0], p),
             r_u: if order >= 1 { sum_of_rows(&bu[1], p) } else { none },
@@ -45,7 +45,7 @@ impl<const N: usize> Rows<N> {
     }
 
     #[inline(always)]
-    fn jet(&self, order: usize, bv: &BasisJet<N>) -> Jet {
+    fn jet(&self, order: usize, bv: &BasisJet<K>) -> Jet<N> {
         let mut jet = Jet { p: sum(&bv[0], &self.r), ..Jet::default() };
         if order >= 1 {
             jet.dv = sum(&bv[1], &self.r);
@@ -71,16 +71,16 @@ pub(crate) struct Line {
 /// and the jet, the same bits as one at a time. What two places of a line have in common is
 /// computed once.
 #[inline(always)]
-pub(crate) fn tensor_grid<const N: usize>(
+pub(crate) fn tensor_grid<const K: usize, const N: usize>(
     order: usize,
-    basis: impl Fn(f64) -> BasisJet<N>,
-    p: &[[Point; N]; N],
+    basis: impl Fn(f64) -> BasisJet<K>,
+    p: &[[[f64; N]; K]; K],
     [us, vs]: [&[Line]; 2],
-    mut put: impl FnMut(usize, usize, &Jet),
+    mut put: impl FnMut(usize, usize, &Jet<N>),
 ) {
     /// So many bases are kept.
     const KEPT: usize = 16;
-    let mut bases = [[[0.0; N]; 3]; KEPT];
+    let mut bases = [[[0.0; K]; 3]; KEPT];
     for vs in vs.chunks(KEPT) {
         bases.iter_mut().zip(vs).for_each(|(bv, v)| *bv = basis(v.at));
         for u in us {
@@ -94,18 +94,18 @@ pub(crate) fn tensor_grid<const N: usize>(
 
 /// [`patch_jet`] on a grid, as [`tensor_grid`].
 #[inline(always)]
-pub(crate) fn patch_grid(
+pub(crate) fn patch_grid<const N: usize>(
     order: usize,
     degree: usize,
-    coefs: &[Point],
+    coefs: &[[f64; N]],
     [us, vs]: [&[Line]; 2],
-    mut put: impl FnMut(usize, usize, &Jet),
+    mut put: impl FnMut(usize, usize, &Jet<N>),
 ) {
     match degree {
-        3 => tensor_grid::<4>(order, bernstein_of_size, square(coefs), [us, vs], put),
-        4 => tensor_grid::<5>(order, bernstein_of_size, square(coefs), [us, vs], put),
-        5 => tensor_grid::<6>(order, bernstein_of_size, square(coefs), [us, vs], put),
-        6 => tensor_grid::<7>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        3 => tensor_grid::<4, N>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        4 => tensor_grid::<5, N>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        5 => tensor_grid::<6, N>(order, bernstein_of_size, square(coefs), [us, vs], put),
+        6 => tensor_grid::<7, N>(order, bernstein_of_size, square(coefs), [us, vs], put),
         _ => {
             for (u, v) in us.iter().flat_map(|u| vs.iter().map(move |v| (u, v))) {
                 put(u.number, v.number, &patch_jet(order, degree, coefs, [u.at, v.at]));
@@ -116,10 +116,13 @@ pub(crate) fn patch_grid(
 
 /// sum_i w_i p_i of whole rows.
 #[inline(always)]
-pub(crate) fn sum_of_rows<const N: usize>(w: &[f64; N], p: &[[Point; N]; N]) -> [Point; N] {
-    let mut row = [[0.0; 3]; N];
+pub(crate) fn sum_of_rows<const K: usize, const N: usize>(
+    w: &[f64; K],
+    p: &[[[f64; N]; K]; K],
+) -> [[f64; N]; K] {
+    let mut row = [[0.0; N]; K];
     row.as_flattened_mut().iter_mut().zip(p[0].as_flattened()).for_each(|(x, y)| *x = w[0] * y);
-    for i in 1..N {
+    for i in 1..K {
         let terms = row.as_flattened_mut().iter_mut().zip(p[i].as_flattened());
         terms.for_each(|(x, y)| *x += w[i] * y);
     }
@@ -128,10 +131,10 @@ pub(crate) fn sum_of_rows<const N: usize>(w: &[f64; N], p: &[[Point; N]; N]) -> 
 
 /// sum_j w_j r_j.
 #[inline(always)]
-pub(crate) fn sum<const N: usize>(w: &[f64; N], r: &[Point; N]) -> Vector {
+pub(crate) fn sum<const K: usize, const N: usize>(w: &[f64; K], r: &[[f64; N]; K]) -> [f64; N] {
     let mut sum = scale(w[0], r[0]);
-    for j in 1..N {
-        for k in 0..3 {
+    for j in 1..K {
+        for k in 0..N {
             sum[k] += w[j] * r[j][k];
         }
     }
@@ -145,12 +148,17 @@ pub(crate) fn sum<const N: usize>(w: &[f64; N], r: &[Point; N]) -> Vector {
 ///
 /// If there are too few coefficients, or the degree is above [`MAX_DEGREE`](super::MAX_DEGREE).
 #[inline]
-pub(crate) fn patch_jet(order: usize, degree: usize, coefs: &[Point], [u, v]: [f64; 2]) -> Jet {
+pub(crate) fn patch_jet<const N: usize>(
+    order: usize,
+    degree: usize,
+    coefs: &[[f64; N]],
+    [u, v]: [f64; 2],
+) -> Jet<N> {
     match degree {
-        3 => square_jet::<4>(order, coefs, u, v),
-        4 => square_jet::<5>(order, coefs, u, v),
-        5 => square_jet::<6>(order, coefs, u, v),
-        6 => square_jet::<7>(order, coefs, u, v),
+        3 => square_jet::<4, N>(order, coefs, u, v),
+        4 => square_jet::<5, N>(order, coefs, u, v),
+        5 => square_jet::<6, N>(order, coefs, u, v),
+        6 => square_jet::<7, N>(order, coefs, u, v),
         _ => {
             let (bu, bv) = (bernstein(degree, u), bernstein(degree, v));
             Jet::tensor_product(&bu, &bv, [degree + 1; 2], |i, j| coefs[i * (degree + 1) + j])
@@ -159,26 +167,31 @@ pub(crate) fn patch_jet(order: usize, degree: usize, coefs: &[Point], [u, v]: [f
 }
 
 #[inline(always)]
-fn square_jet<const N: usize>(order: usize, coefs: &[Point], u: f64, v: f64) -> Jet {
-    let (bu, bv) = (bernstein_of_size::<N>(u), bernstein_of_size::<N>(v));
+fn square_jet<const K: usize, const N: usize>(
+    order: usize,
+    coefs: &[[f64; N]],
+    u: f64,
+    v: f64,
+) -> Jet<N> {
+    let (bu, bv) = (bernstein_of_size::<K>(u), bernstein_of_size::<K>(v));
     tensor_jet(order, &bu, &bv, square(coefs))
 }
 
-/// The first N x N coefficients as rows.
+/// The first K x K coefficients as rows.
 #[inline(always)]
-pub(crate) fn square<const N: usize>(coefs: &[Point]) -> &[[Point; N]; N] {
-    let (rows, _) = coefs.as_chunks::<N>();
-    rows.first_chunk::<N>().expect("a patch has (d+1)^2 coefficients")
+pub(crate) fn square<const K: usize, const N: usize>(coefs: &[[f64; N]]) -> &[[[f64; N]; K]; K] {
+    let (rows, _) = coefs.as_chunks::<K>();
+    rows.first_chunk::<K>().expect("a patch has (d+1)^2 coefficients")
 }
 
-/// [`bernstein`] of degree N - 1, which must be 2 or more.
+/// [`bernstein`] of degree K - 1, which must be 2 or more.
 #[inline(always)]
-pub(crate) fn bernstein_of_size<const N: usize>(t: f64) -> BasisJet<N> {
-    let d = N - 1;
-    let mut values = [0.0; N];
+pub(crate) fn bernstein_of_size<const K: usize>(t: f64) -> BasisJet<K> {
+    let d = K - 1;
+    let mut values = [0.0; K];
     values[0] = 1.0;
-    let (mut first, mut second) = ([0.0; N], [0.0; N]);
-    for degree in 1..N {
+    let (mut first, mut second) = ([0.0; K], [0.0; K]);
+    for degree in 1..K {
         if degree + 1 == d {
             second = differences(&differences(&values, d as f64), (d - 1) as f64);
         }
@@ -195,10 +208,10 @@ pub(crate) fn bernstein_of_size<const N: usize>(t: f64) -> BasisJet<N> {
 
 /// factor (b_(i-1) - b_i).
 #[inline(always)]
-fn differences<const N: usize>(b: &[f64; N], factor: f64) -> [f64; N] {
-    let mut result = [0.0; N];
+fn differences<const K: usize>(b: &[f64; K], factor: f64) -> [f64; K] {
+    let mut result = [0.0; K];
     result[0] = -factor * b[0];
-    for i in 1..N {
+    for i in 1..K {
         result[i] = factor * (b[i - 1] - b[i]);
     }
     result
@@ -208,7 +221,7 @@ fn differences<const N: usize>(b: &[f64; N], factor: f64) -> [f64; N] {
 mod tests {
     use super::*;
     use crate::patch::Patch;
-    use crate::point::{norm, sub};
+    use crate::point::{Point, norm, sub};
 
     /// Numbers without a pattern in -1..1.
     fn coefs(count: usize) -> Vec<Point> {

@@ -15,6 +15,8 @@
 //!   |  b00 b10 b20
 //!   +-------------> u
 //! ```
+//!
+//! Coefficients are points in space, N = 3, or the N = 1 to 4 numbers of a primvar.
 
 mod answer;
 pub mod basis;
@@ -26,25 +28,23 @@ pub(crate) use answer::Parts;
 pub(crate) use jet::Shape;
 pub use jet::{FirstJet, Jet, SurfacePoint};
 
-use crate::point::Point;
-
 /// The highest degree of a patch in one parameter.
 pub const MAX_DEGREE: usize = 6;
 
 /// A tensor-product patch in Bernstein-Bezier form.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Patch {
+pub struct Patch<const N: usize = 3> {
     degree: [usize; 2],
-    coefs: Vec<Point>,
+    coefs: Vec<[f64; N]>,
 }
 
-impl Patch {
+impl<const N: usize> Patch<N> {
     /// Builds a patch of degree `[du, dv]` from its BB coefficients, `v` index fastest.
     ///
     /// # Panics
     ///
     /// If there are not `(du + 1) (dv + 1)` coefficients, or a degree is above [`MAX_DEGREE`].
-    pub fn new(degree: [usize; 2], coefs: Vec<Point>) -> Self {
+    pub fn new(degree: [usize; 2], coefs: Vec<[f64; N]>) -> Self {
         let [du, dv] = degree;
         assert!(du <= MAX_DEGREE && dv <= MAX_DEGREE, "degree ({du}, {dv}) is too high");
         assert_eq!(coefs.len(), (du + 1) * (dv + 1), "a patch of degree ({du}, {dv})");
@@ -57,12 +57,12 @@ impl Patch {
     }
 
     /// The BB coefficient `b_ij`.
-    pub fn coef(&self, i: usize, j: usize) -> Point {
+    pub fn coef(&self, i: usize, j: usize) -> [f64; N] {
         self.coefs[i * (self.degree[1] + 1) + j]
     }
 
     /// All BB coefficients, `v` index fastest.
-    pub fn coefs(&self) -> &[Point] {
+    pub fn coefs(&self) -> &[[f64; N]] {
         &self.coefs
     }
 
@@ -78,7 +78,7 @@ impl Patch {
     /// assert_eq!(jet.p, [0.5, 0.25, 0.125]);
     /// assert_eq!(jet.duv, [0.0, 0.0, 1.0]);
     /// ```
-    pub fn jet(&self, u: f64, v: f64) -> Jet {
+    pub fn jet(&self, u: f64, v: f64) -> Jet<N> {
         let bu = basis::bernstein(self.degree[0], u);
         let bv = basis::bernstein(self.degree[1], v);
         let counts = self.degree.map(|d| d + 1);

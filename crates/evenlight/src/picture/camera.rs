@@ -44,12 +44,12 @@ impl View {
     /// that point in the middle, at zoom 1; `None` if there is no such point or its normal is
     /// not defined.
     pub fn toward(surface: &Surface, point: usize) -> Option<Self> {
-        let point = surface.extraordinary_points().get(point)?;
-        let [x, y, z] = point.normal;
+        let rings = surface.rings(point)?;
+        let [x, y, z] = rings.normal();
         // Looking straight down, the front of the surface is at the bottom of the picture.
         let azimuth = if x.hypot(y) < 1e-9 { 0.0 } else { x.atan2(-y).to_degrees() };
         let elevation = z.clamp(-1.0, 1.0).asin().to_degrees();
-        let view = Self { azimuth, elevation, zoom: 1.0, target: Some(point.position) };
+        let view = Self { azimuth, elevation, zoom: 1.0, target: Some(rings.center()) };
         view.is_valid().then_some(view)
     }
 

@@ -13,9 +13,9 @@ use super::color::{Light, diverging, from_srgb, mix, to_srgb};
 use super::shade::studio;
 use super::{MAX_SAMPLES, MAX_SIDE, PictureError, annotate, panel_grid};
 use crate::basis::{Eigenfunctions, Parity};
-use crate::parallel::map_indexed;
 use crate::patch::Patch;
 use crate::point::{Point, Vector, cross, dot, scale, sub};
+use crate::task::map_indexed;
 
 /// The height of a graph over the plane, in radii of the plane.
 const HEIGHT: f64 = 0.5;

@@ -39,6 +39,7 @@ pub use canvas::Picture;
 pub use graph::{GraphOptions, eigenfunctions};
 
 use crate::Surface;
+use crate::task::{Cancelled, Steps};
 use camera::Camera;
 use canvas::Label;
 use color::{Light, from_srgb, mix};
@@ -163,6 +164,15 @@ pub enum PictureError {
         /// The values it may have.
         allowed: &'static str,
     },
+    /// Who watches the work stopped it ([`Task::watch`](crate::task::Task::watch)).
+    #[error("the work was cancelled")]
+    Cancelled,
+}
+
+impl From<Cancelled> for PictureError {
+    fn from(Cancelled: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }
 
 /// Draws `surface`.
@@ -196,12 +206,14 @@ pub fn compare(
     let camera = fitted_camera(surfaces, options, panel_size);
     let range = options.range.unwrap_or_else(|| typical_range(surfaces, &camera, options.style));
 
+    let mut steps = Steps::new("Drawing", surfaces.len())?;
     let mut picture = Picture::new(options.size, |y| options.background(y));
     for (k, &(name, surface)) in surfaces.iter().enumerate() {
         let origin = [k % columns * panel_size[0], k / columns * panel_size[1]];
         let panel = Panel::new(surface, camera.clone());
         panel.draw(&mut picture, origin, options, range);
         annotate(&mut picture, origin, panel_size, name, panel.is_empty(), scale);
+        steps.step()?;
     }
     legend::draw(&mut picture, options.style, range, scale);
     Ok(picture)

@@ -9,9 +9,9 @@ use super::raster::{Seen, Tile, locate};
 use super::shade::{Coat, Painter, curvature};
 use super::{RenderOptions, Style};
 use crate::analyse::highlight::HighlightLines;
-use crate::parallel::map_indexed;
 use crate::point::{Point, add, add_scaled, scale};
 use crate::surface::{QuadId, Surface};
+use crate::task::map_indexed;
 
 /// The side of a tile in pixels.
 const TILE: usize = 32;
@@ -325,7 +325,7 @@ mod tests {
             let target = surface
                 .extraordinary_points()
                 .iter()
-                .position(|p| p.vertex.is_some_and(|v| v.0 == 0));
+                .position(|p| p.vertex().is_some_and(|v| v.0 == 0));
             for zoom in [3.0, 30.0, 1e3, 1e6] {
                 let view = View {
                     zoom,
@@ -370,10 +370,9 @@ mod tests {
             [1.0, 1.0, 0.0],
             [1e-9, 1.0, 1e9],
         ] {
-            let cage = paraboloid.cage();
-            let faces = cage.topology().faces().clone();
+            let faces = paraboloid.topology().faces().clone();
             let move_point = |p: &Point| std::array::from_fn(|k| factor[k] * p[k]);
-            let positions = cage.positions().iter().map(move_point).collect();
+            let positions = paraboloid.positions().iter().map(move_point).collect();
             let surface = surface(Mesh { positions, faces, ..Mesh::default() });
             for style in Style::ALL {
                 let picture =
@@ -384,13 +383,12 @@ mod tests {
     }
 
     #[test]
-    #[cfg(feature = "parallel")]
     fn the_number_of_threads_does_not_change_the_picture() {
         let surface = bipyramid(5);
         let draw = |threads: usize, style: Style| {
             let options = RenderOptions { style, size: [360, 150], ..RenderOptions::default() };
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| super::super::render(&surface, &options).unwrap())
+            let task = crate::task::Task::new().threads(threads);
+            task.run(|| super::super::render(&surface, &options).unwrap())
         };
         for style in Style::ALL {
             assert_eq!(draw(1, style), draw(2, style));

@@ -64,7 +64,7 @@ impl Pieces {
             }
         }
         for (k, point) in surface.extraordinary_points().iter().enumerate() {
-            let sigma = surface.rings(k).sigma();
+            let sigma = surface.rings_at(k).sigma();
             for &sector in &point.sectors {
                 quads[sector.quad.0 as usize].sectors.push((sector, sigma));
             }

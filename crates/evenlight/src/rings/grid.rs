@@ -16,10 +16,10 @@ use super::{OUT_OF_THE_DENORMALS, Rings};
 use crate::patch::Answer;
 use crate::patch::kernel::{Line, patch_grid};
 
-impl Rings {
+impl<const N: usize> Rings<N> {
     /// [`Rings::eval_as`] where lines of constant a meet lines of constant b, all from 0 to 1: `put`
     /// gets the numbers of both and the answer, the same bits as one at a time.
-    pub(crate) fn eval_grid<A: Answer>(
+    pub(crate) fn eval_grid<A: Answer<N>>(
         &self,
         s: usize,
         mut a: Vec<Line>,
@@ -50,7 +50,7 @@ impl Rings {
     }
 
     /// One of the three squares of a sector of a ring.
-    fn eval_square<A: Answer>(
+    fn eval_square<A: Answer<N>>(
         &self,
         ring: usize,
         s: usize,

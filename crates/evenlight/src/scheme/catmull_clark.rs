@@ -6,7 +6,7 @@
 //! back.) One refinement gives the nodes (a,b), a,b <= 3, around the next, half as large c-net,
 //! hence three bi-3 patches per sector.
 
-use super::rules::{PatchRule, Row, RowBuilder, Rules};
+use super::rules::{PatchRule, Row, RowBuilder, Rules, Symmetry};
 use crate::net::{CNET_NODES, NodeRef, cnet_node};
 use crate::patch::basis::CUBIC_B_SPLINE_TO_BB;
 
@@ -18,6 +18,7 @@ pub(crate) fn rules(n: usize) -> Rules {
     let patches = [(1, 1), (1, 0), (0, 1)].map(|(a, b)| patch(n, a, b)).into();
     Rules {
         valence: n,
+        symmetry: Symmetry::Turning,
         nodes_per_sector: CNET_NODES,
         refine,
         degree: 3,

@@ -5,7 +5,7 @@
 //! the centre in each sector follow the rules of Section 5, whose weights are in
 //! [`tables`](super::tables). The weight of c_0 drops out, since c_0 is the origin here.
 
-use super::rules::{Row, RowBuilder, Rules};
+use super::rules::{Row, RowBuilder, Rules, Symmetry};
 use super::tables::{self, EgWeights};
 use crate::net::{DNET_NODES, NodeRef, Spline};
 
@@ -24,6 +24,7 @@ fn rules_of(n: usize, weights: &EgWeights) -> Rules {
     let node = |k: usize| refined_node(&empty, k % 4, k / 4, weights);
     Rules {
         valence: n,
+        symmetry: Symmetry::Turning,
         nodes_per_sector: DNET_NODES,
         refine: (0..DNET_NODES).map(node).collect(),
         degree: Spline::BiQuartic.degree(),

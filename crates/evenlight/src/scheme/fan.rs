@@ -28,9 +28,9 @@ pub(crate) use fair::{FairFan, fair_rules, is_fair};
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-use super::rules::{PatchRule, Row, Rules};
+use super::rules::{PatchRule, Row, Rules, Symmetry};
 use crate::angle::{cosine, sine};
-use crate::mesh::{Fan, VertexRule};
+use crate::net::{Fan, VertexRule};
 use crate::patch::basis::CUBIC_B_SPLINE_TO_BB;
 use crate::point::{Point, Vector, add_scaled, cross, dot, norm, sub, unit};
 
@@ -80,6 +80,7 @@ pub(crate) fn rules(shape: Fan) -> (Rules, FanLimit) {
     let tangents = tangents(&net, &refine);
     let rules = Rules {
         valence: shape.faces,
+        symmetry: Symmetry::None,
         nodes_per_sector: net.num_nodes(),
         refine,
         degree: 3,
@@ -107,8 +108,8 @@ impl FanLimit {
     }
 
     /// A net without c relative to its limit point, with c.
-    pub(crate) fn with_vertex(&self, nodes: &[Vector]) -> Vec<Vector> {
-        let (mut sum, mut own) = ([0.0; 3], 1.0);
+    pub(crate) fn with_vertex<const N: usize>(&self, nodes: &[[f64; N]]) -> Vec<[f64; N]> {
+        let (mut sum, mut own) = ([0.0; N], 1.0);
         for &(k, w) in &self.point {
             match nodes.get(k) {
                 Some(&p) => add_scaled(&mut sum, -w, p),
@@ -120,7 +121,7 @@ impl FanLimit {
     }
 
     /// The limit point of a net, c being its last node.
-    pub(crate) fn limit_point(&self, net: &[Point]) -> Point {
+    pub(crate) fn limit_point<const N: usize>(&self, net: &[[f64; N]]) -> [f64; N] {
         let mut sum = net[net.len() - 1];
         let center = sum;
         for &(k, w) in &self.point {
@@ -130,9 +131,9 @@ impl FanLimit {
     }
 
     /// The first net of the rules relative to the limit point, from the net of the fan.
-    pub(crate) fn first_net(&self, net: &[Point]) -> Vec<Vector> {
+    pub(crate) fn first_net<const N: usize>(&self, net: &[[f64; N]]) -> Vec<[f64; N]> {
         let center = self.limit_point(net);
-        let relative: Vec<Vector> = net.iter().map(|&p| sub(p, center)).collect();
+        let relative: Vec<[f64; N]> = net.iter().map(|&p| sub(p, center)).collect();
         match &self.first_net {
             Some(rows) => rows.iter().map(|row| apply(row, &relative)).collect(),
             None => relative[..relative.len() - 1].to_vec(),
@@ -140,7 +141,7 @@ impl FanLimit {
     }
 
     /// The patches of the hole that do not touch the centre, sector by sector, if the rules have such.
-    pub(crate) fn cells(&self, net: &[Vector]) -> Vec<[Vec<Vector>; 3]> {
+    pub(crate) fn cells<const N: usize>(&self, net: &[[f64; N]]) -> Vec<[Vec<[f64; N]>; 3]> {
         let patch = |rows: &Vec<Row>| rows.iter().map(|row| apply(row, net)).collect();
         self.cells.iter().map(|cells| cells.each_ref().map(patch)).collect()
     }
@@ -172,8 +173,8 @@ fn tip_tangents(net: &[Point], size: f64) -> [Vector; 2] {
     [sub(first, last), if norm(bend) > FLATTEST * size { bend } else { face }]
 }
 
-fn apply(row: &Row, net: &[Vector]) -> Vector {
-    let mut sum = [0.0; 3];
+fn apply<const N: usize>(row: &Row, net: &[[f64; N]]) -> [f64; N] {
+    let mut sum = [0.0; N];
     row.iter().for_each(|&(k, w)| add_scaled(&mut sum, w, net[k]));
     sum
 }

@@ -22,10 +22,9 @@ pub(crate) use rules::{PatchParameters, Row, Rules};
 pub(crate) use subdominant::Subdominant;
 
 use crate::net::{CNet, DNet, Spline};
-use crate::point::Point;
 
 /// Which subdivision scheme makes the surface around extraordinary points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SchemeKind {
     /// Catmull-Clark subdivision \[CC78\]: bi-3 rings, C1 at the centre, unbounded curvature there.
     CatmullClark,
@@ -64,7 +63,7 @@ pub enum SchemeKind {
 }
 
 /// Which tables of weights are used, by schemes that have tables.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RuleSet {
     /// Full precision, valences 3 and 5 to 16; of guided subdivision, with the feature `derive`, to
     /// 32.
@@ -223,7 +222,7 @@ impl SchemeKind {
     }
 
     /// The limit point of a c-net.
-    pub(crate) fn limit_point(self, cnet: &CNet) -> Point {
+    pub(crate) fn limit_point<const N: usize>(self, cnet: &CNet<N>) -> [f64; N] {
         match self {
             Self::CatmullClark => cnet.catmull_clark_limit(),
             _ => cnet.evolving_guide_limit(),
@@ -231,7 +230,7 @@ impl SchemeKind {
     }
 
     /// The control net on which the rules of schemes without a guide work, from a c-net relative to its limit point.
-    pub(crate) fn net(self, cnet: &CNet) -> Vec<[f64; 3]> {
+    pub(crate) fn net<const N: usize>(self, cnet: &CNet<N>) -> Vec<[f64; N]> {
         match self.spline() {
             None => cnet.sectors.iter().flatten().copied().collect(),
             Some(spline) => DNet::from_cnet(cnet, spline).sectors.into_iter().flatten().collect(),

@@ -18,7 +18,7 @@
 //!
 //! [`Quadratic`]: crate::net::Quadratic
 
-use super::rules::{QuadraticPart, Row, RowBuilder, Rules};
+use super::rules::{QuadraticPart, Row, RowBuilder, Rules, Symmetry};
 use super::tables::{self, QasWeights};
 use crate::angle::sector_cosine;
 use crate::net::{DNET_NODES, NodeRef, Spline, dnet_node};
@@ -63,6 +63,7 @@ fn composed(n: usize, spline: Spline, bases: Bases, weights: &QasWeights) -> Rul
     let from_net = default_quadratic(n, weights).map(|row| bases.in_own_basis(&row));
     Rules {
         valence: n,
+        symmetry: Symmetry::Turning,
         nodes_per_sector: NODES,
         refine,
         degree: spline.degree(),
@@ -91,6 +92,7 @@ pub(crate) fn point_augmented_rules(n: usize, spline: Spline, published: bool) -
     };
     Some(Rules {
         valence: n,
+        symmetry: Symmetry::Turning,
         nodes_per_sector: DNET_NODES,
         refine: with_q.refine[..DNET_NODES].iter().map(substituted).collect(),
         degree: spline.degree(),

@@ -11,7 +11,8 @@
 //!         3n patches        3n patches                 ring 1, ring 2, ...
 //! ```
 //!
-//! The maps commute with turning by one sector, so a row is written for sector 0 only.
+//! The maps commute with turning by one sector, so a row is written for sector 0 only; but for fans
+//! ([`Symmetry`]).
 
 use crate::angle::sector_cosine;
 use crate::net::{self, CNET_NODES, CNet, Expansion, NodeRef};
@@ -21,6 +22,16 @@ use crate::point::add_scaled;
 ///
 /// Node `k` of the sector `r` sectors further on is `r * nodes_per_sector + k`.
 pub(crate) type Row = Vec<(usize, f64)>;
+
+/// Whether rules commute with turning by one sector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Symmetry {
+    /// They do: rows and patches are written for sector 0.
+    Turning,
+    /// They do not, as those of a fan: rows and patches are written for all sectors, and all nodes
+    /// count as those of one.
+    None,
+}
 
 /// The linear rules of one scheme at one valence.
 ///
@@ -42,12 +53,10 @@ pub(crate) type Row = Vec<(usize, f64)>;
 pub(crate) struct Rules {
     /// The valence n.
     pub(crate) valence: usize,
+    pub(crate) symmetry: Symmetry,
     /// How many nodes each sector owns.
     pub(crate) nodes_per_sector: usize,
     /// The new nodes of sector 0 from the old net.
-    ///
-    /// A fan does not commute with turning: its rows, and its patches, are those of all sectors,
-    /// and all its nodes count as those of one.
     pub(crate) refine: Vec<Row>,
     /// The degree of the patches in both parameters.
     pub(crate) degree: usize,
@@ -143,10 +152,12 @@ impl Rules {
         self.turns() * self.nodes_per_sector
     }
 
-    /// How many sectors have the same rules but for a turn: all, or if each has rules of its own
-    /// (a fan), one.
+    /// How many sectors have the same rules but for a turn.
     fn turns(&self) -> usize {
-        if self.patches.len() == self.patches_per_sector() { self.valence } else { 1 }
+        match self.symmetry {
+            Symmetry::Turning => self.valence,
+            Symmetry::None => 1,
+        }
     }
 
     /// The number of nodes per sector without those of q or of the guide.
@@ -167,15 +178,15 @@ impl Rules {
     }
 
     /// The net of a guided scheme from a c-net relative to its limit point; `None` for others.
-    pub(crate) fn guided_net(&self, cnet: &CNet) -> Option<Vec<[f64; 3]>> {
+    pub(crate) fn guided_net<const N: usize>(&self, cnet: &CNet<N>) -> Option<Vec<[f64; N]>> {
         let part = self.guide.as_ref()?;
-        let nodes: Vec<[f64; 3]> = cnet.sectors.iter().flatten().copied().collect();
+        let nodes: Vec<[f64; N]> = cnet.sectors.iter().flatten().copied().collect();
         let mut net = Vec::with_capacity(self.num_nodes());
         for s in 0..self.valence {
             let (behind, ahead) = nodes.split_at(CNET_NODES * s);
             let seen = || ahead.iter().chain(behind).chain([&cnet.center]);
             net.extend(part.from_cnet.iter().map(|row| {
-                let mut sum = [0.0; 3];
+                let mut sum = [0.0; N];
                 row.iter().zip(seen()).for_each(|(&w, &p)| add_scaled(&mut sum, w, p));
                 sum
             }));
@@ -184,14 +195,21 @@ impl Rules {
     }
 
     /// The default q of a control net; `None` for schemes without q.
-    pub(crate) fn default_quadratic(&self, net: &[[f64; 3]]) -> Option<Expansion> {
+    pub(crate) fn default_quadratic<const N: usize>(
+        &self,
+        net: &[[f64; N]],
+    ) -> Option<Expansion<N>> {
         self.quadratic
             .as_ref()
             .map(|part| part.from_net.each_ref().map(|row| weighted(row, |k| net[k])))
     }
 
     /// The control net with the nodes of q, given in sector 0.
-    pub(crate) fn with_quadratic(&self, net: &[[f64; 3]], q: Expansion) -> Vec<[f64; 3]> {
+    pub(crate) fn with_quadratic<const N: usize>(
+        &self,
+        net: &[[f64; N]],
+        q: Expansion<N>,
+    ) -> Vec<[f64; N]> {
         let c = sector_cosine(self.valence);
         let mut q = q;
         let mut all = Vec::with_capacity(self.num_nodes());
@@ -204,7 +222,7 @@ impl Rules {
     }
 
     /// The refined net A x.
-    pub(crate) fn refine(&self, net: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    pub(crate) fn refine<const N: usize>(&self, net: &[[f64; N]]) -> Vec<[f64; N]> {
         let mut refined = Vec::with_capacity(net.len());
         for s in 0..self.turns() {
             let seen = turned(net, s * self.nodes_per_sector);
@@ -306,40 +324,44 @@ impl Rules {
 
     /// The BB coefficients of patch `which` of sector `s` in the ring between `old` and
     /// `new` = A `old`.
-    pub(crate) fn patch(
+    pub(crate) fn patch<const N: usize>(
         &self,
         s: usize,
         which: usize,
-        old: &[[f64; 3]],
-        new: &[[f64; 3]],
-    ) -> Vec<[f64; 3]> {
-        self.patch_of_scaled(s, which, old, (new, [1.0; 3]))
+        old: &[[f64; N]],
+        new: &[[f64; N]],
+    ) -> Vec<[f64; N]> {
+        self.patch_of_scaled(s, which, old, (new, [1.0; N]))
     }
 
     /// [`Rules::patch`] where A `old` is `new` with its coordinates multiplied by `scale`.
-    pub(crate) fn patch_of_scaled(
+    pub(crate) fn patch_of_scaled<const N: usize>(
         &self,
         s: usize,
         which: usize,
-        old: &[[f64; 3]],
-        (new, scale): (&[[f64; 3]], [f64; 3]),
-    ) -> Vec<[f64; 3]> {
-        let (by, own) = match self.turns() {
-            1 => (0, s * self.patches_per_sector()),
-            _ => (s * self.nodes_per_sector, 0),
+        old: &[[f64; N]],
+        (new, scale): (&[[f64; N]], [f64; N]),
+    ) -> Vec<[f64; N]> {
+        let (by, own) = match self.symmetry {
+            Symmetry::None => (0, s * self.patches_per_sector()),
+            Symmetry::Turning => (s * self.nodes_per_sector, 0),
         };
         // Not copied in turned order: nets may be large, and a patch is soon made.
-        let node = |net: &[[f64; 3]], k: usize| {
+        let node = |net: &[[f64; N]], k: usize| {
             let at = k + by;
             net[if at < net.len() { at } else { at - net.len() }]
         };
         let rule = &self.patches[own + which];
-        let coef = |(a, b): (&Row, &Row)| {
-            let (old, new) = (weighted(a, |k| node(old, k)), weighted(b, |k| node(new, k)));
-            let along = |k: usize| old[k] + scale[k] * new[k];
-            [along(0), along(1), along(2)]
-        };
-        rule.old.iter().zip(&rule.new).map(coef).collect()
+        let mut coefs = Vec::with_capacity(rule.old.len());
+        for (a, b) in rule.old.iter().zip(&rule.new) {
+            let mut coef = weighted(a, |k| node(old, k));
+            let new = weighted(b, |k| node(new, k));
+            for k in 0..N {
+                coef[k] += scale[k] * new[k];
+            }
+            coefs.push(coef);
+        }
+        coefs
     }
 }
 
@@ -354,15 +376,15 @@ fn square_of([a, b]: [f64; 2], sigma: f64) -> usize {
 }
 
 /// A net turned so that node `by` becomes node 0.
-fn turned(net: &[[f64; 3]], by: usize) -> Vec<[f64; 3]> {
+fn turned<const N: usize>(net: &[[f64; N]], by: usize) -> Vec<[f64; N]> {
     let (behind, ahead) = net.split_at(by);
     [ahead, behind].concat()
 }
 
 /// A row applied to the nodes of a net.
 #[inline]
-fn weighted(row: &Row, node: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
-    let mut sum = [0.0; 3];
+fn weighted<const N: usize>(row: &Row, node: impl Fn(usize) -> [f64; N]) -> [f64; N] {
+    let mut sum = [0.0; N];
     for &(k, w) in row {
         add_scaled(&mut sum, w, node(k));
     }

@@ -111,10 +111,10 @@ impl Subdominant {
     }
 
     /// The vectors [a, b] that span the tangent plane of a net's limit, with normal b x a.
-    pub(crate) fn tangents(&self, net: &[Vector]) -> [Vector; 2] {
+    pub(crate) fn tangents<const N: usize>(&self, net: &[[f64; N]]) -> [[f64; N]; 2] {
         match &self.part {
             Part::Fourier { left, .. } => {
-                let mut alpha = [[0.0; 3]; 2];
+                let mut alpha = [[0.0; N]; 2];
                 for (w, &p) in left.iter().zip(net) {
                     add_scaled(&mut alpha[0], w[0], p);
                     add_scaled(&mut alpha[1], w[1], p);
@@ -127,7 +127,7 @@ impl Subdominant {
 
     /// The vectors [a, b] such that the part of a net that shrinks by lambda is a x + b y, x and y
     /// those of the characteristic net.
-    pub(crate) fn tangential(&self, net: &[Vector]) -> [Vector; 2] {
+    pub(crate) fn tangential<const N: usize>(&self, net: &[[f64; N]]) -> [[f64; N]; 2] {
         let [first, second] = self.tangents(net);
         match &self.part {
             Part::Fourier { .. } => [first.map(|x| 2.0 * x), second.map(|x| -2.0 * x)],
@@ -135,13 +135,13 @@ impl Subdominant {
                 // first = beta is along line 0, the x-axis; second = alpha along line -1.
                 let [x, y, _] = characteristic[*control];
                 let across = |k: usize| (second[k] - x * first[k]) / y;
-                [first, [0, 1, 2].map(across)]
+                [first, std::array::from_fn(across)]
             }
         }
     }
 
     /// Removes the part of coordinate `k` of `net` that shrinks by lambda.
-    pub(crate) fn remove_from_coordinate(&self, k: usize, net: &mut [Vector]) {
+    pub(crate) fn remove_from_coordinate<const N: usize>(&self, k: usize, net: &mut [[f64; N]]) {
         match &self.part {
             Part::Fourier { right, left } => {
                 let mut alpha = [0.0; 2];

@@ -6,11 +6,10 @@
 use super::place::{from_sector, quadrant, to_sector};
 use super::{QuadId, Surface};
 use crate::mesh::isolation::{CORNERS, Piece};
-use crate::parallel::for_each_chunk;
-use crate::patch::{Answer, FirstJet, Jet};
-use crate::point::Point;
+use crate::patch::{Answer, FirstJet, Jet, Parts};
+use crate::task::for_each_chunk;
 
-impl Surface {
+impl<const N: usize> Surface<N> {
     /// [`Surface::eval`] of what is wanted alone, which is told by the type: position, first
     /// derivatives, second derivatives, or all with normal and curvature.
     ///
@@ -27,28 +26,30 @@ impl Surface {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[inline]
-    pub fn eval_as<A: Answer>(&self, quad: QuadId, u: f64, v: f64) -> Option<A> {
+    pub fn eval_as<A: Answer<N>>(&self, quad: QuadId, u: f64, v: f64) -> Option<A> {
         if u.is_nan() || v.is_nan() {
             return None;
         }
-        let mut piece = *self.plan.pieces[..self.num_quads()].get(quad.0 as usize)?;
+        let plan = &self.layout.plan;
+        let mut piece = *plan.pieces[..self.num_quads()].get(quad.0 as usize)?;
         let (mut at, mut zoom) = ([u.clamp(0.0, 1.0), v.clamp(0.0, 1.0)], 1.0);
         loop {
             match piece {
                 Piece::Omitted => return None,
                 Piece::Regular(net) => {
-                    let jet = self.regular_jet(A::ORDER, net, at).scaled_parameters(zoom);
+                    let jet =
+                        self.regular_jet(<A as Parts<N>>::ORDER, net, at).scaled_parameters(zoom);
                     return Some(A::from_parts(jet, Jet::shape));
                 }
                 Piece::Sector { point, sector, corner } => {
                     let at = to_sector(corner, at);
                     let found: A = self.eval_around(point as usize, sector as usize, at);
-                    let change = |jet: &Jet| from_sector(corner, jet).scaled_parameters(zoom);
+                    let change = |jet: &Jet<N>| from_sector(corner, jet).scaled_parameters(zoom);
                     return Some(found.in_parameters(change));
                 }
                 Piece::Split(first) => {
                     let k = quadrant(at);
-                    piece = self.plan.pieces[first as usize + k];
+                    piece = plan.pieces[first as usize + k];
                     at = [2.0 * at[0] - CORNERS[k][0], 2.0 * at[1] - CORNERS[k][1]];
                     zoom *= 2.0;
                 }
@@ -56,18 +57,31 @@ impl Surface {
         }
     }
 
-    /// The position at (u,v) of `quad`, as [`Surface::eval`] gives it.
-    pub fn eval_position(&self, quad: QuadId, u: f64, v: f64) -> Option<Point> {
+    /// A sector of an extraordinary point at its own parameters.
+    #[inline]
+    pub(super) fn eval_around<A: Answer<N>>(&self, point: usize, sector: usize, at: [f64; 2]) -> A {
+        let rings = self.rings_at(point);
+        if let Some(cap) = self.cap(point) {
+            let in_hole = rings.in_hole(cap.rings(), at);
+            if in_hole[0].max(in_hole[1]) <= 1.0 {
+                return cap.eval_as(rings, sector, in_hole);
+            }
+        }
+        rings.eval_as(sector, at[0], at[1])
+    }
+
+    /// The position at (u,v) of `quad`, as [`Surface::eval`] gives it; of a primvar the value.
+    pub fn eval_position(&self, quad: QuadId, u: f64, v: f64) -> Option<[f64; N]> {
         self.eval_as(quad, u, v)
     }
 
     /// Position and first derivatives at (u,v) of `quad`, as [`Surface::eval`] gives them.
-    pub fn eval_first(&self, quad: QuadId, u: f64, v: f64) -> Option<FirstJet> {
+    pub fn eval_first(&self, quad: QuadId, u: f64, v: f64) -> Option<FirstJet<N>> {
         self.eval_as(quad, u, v)
     }
 
     /// Position, first and second derivatives at (u,v) of `quad`, as [`Surface::eval`] gives them.
-    pub fn eval_second(&self, quad: QuadId, u: f64, v: f64) -> Option<Jet> {
+    pub fn eval_second(&self, quad: QuadId, u: f64, v: f64) -> Option<Jet<N>> {
         self.eval_as(quad, u, v)
     }
 
@@ -93,7 +107,7 @@ impl Surface {
     /// assert!((points[1][0] - 0.5).abs() < 1e-15 && (points[1][1] - 0.5).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn eval_each<A: Answer>(&self, places: &[(QuadId, f64, f64)], answers: &mut [A]) {
+    pub fn eval_each<A: Answer<N>>(&self, places: &[(QuadId, f64, f64)], answers: &mut [A]) {
         assert_eq!(places.len(), answers.len(), "there must be as many answers as places");
         /// Fewer quads stay in a cache whatever the order.
         const LARGE: usize = 1 << 15;

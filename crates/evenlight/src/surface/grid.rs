@@ -9,10 +9,10 @@ use super::{QuadId, Surface};
 use crate::mesh::isolation::{CORNERS, Piece};
 use crate::patch::basis::cubic_b_spline;
 use crate::patch::kernel::{Line, square, tensor_grid};
-use crate::patch::{Answer, Jet};
+use crate::patch::{Answer, Jet, Parts};
 use crate::rings::for_each_pair;
 
-impl Surface {
+impl<const N: usize> Surface<N> {
     /// Evaluates at all pairs of the parameters `us` and `vs` of a quad. The answer at `us[i]`,
     /// `vs[j]` is number i + j * `us.len()`, the same bits as from [`Surface::eval_as`]; NaN where
     /// there is no surface.
@@ -33,10 +33,10 @@ impl Surface {
     /// assert_eq!(Some(points[2]), surface.eval_position(QuadId(0), 0.0, 1.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn eval_grid<A: Answer>(&self, quad: QuadId, us: &[f64], vs: &[f64], answers: &mut [A]) {
+    pub fn eval_grid<A: Answer<N>>(&self, quad: QuadId, us: &[f64], vs: &[f64], answers: &mut [A]) {
         assert_eq!(us.len() * vs.len(), answers.len(), "there must be as many answers as pairs");
         answers.fill(A::NAN);
-        let Some(&piece) = self.plan.pieces[..self.num_quads()].get(quad.0 as usize) else {
+        let Some(&piece) = self.layout.plan.pieces[..self.num_quads()].get(quad.0 as usize) else {
             return;
         };
         let lines = |parameters: &[f64]| -> Vec<Line> {
@@ -48,7 +48,7 @@ impl Surface {
     }
 
     /// A piece that is `zoom` times as small as its quad, at its own parameters.
-    fn eval_piece<A: Answer>(
+    fn eval_piece<A: Answer<N>>(
         &self,
         piece: Piece,
         us: Vec<Line>,
@@ -64,12 +64,18 @@ impl Surface {
             Piece::Regular(net) => {
                 let points = self.net_points(net);
                 let lines = [&us[..], &vs[..]];
-                tensor_grid(A::ORDER, cubic_b_spline, square(&points), lines, |i, j, jet| {
-                    put(i, j, A::from_parts(jet.scaled_parameters(zoom), Jet::shape));
-                });
+                tensor_grid(
+                    <A as Parts<N>>::ORDER,
+                    cubic_b_spline,
+                    square(&points),
+                    lines,
+                    |i, j, jet| {
+                        put(i, j, A::from_parts(jet.scaled_parameters(zoom), Jet::shape));
+                    },
+                );
             }
             Piece::Sector { point, sector, corner } => {
-                let change = |jet: &Jet| from_sector(corner, jet).scaled_parameters(zoom);
+                let change = |jet: &Jet<N>| from_sector(corner, jet).scaled_parameters(zoom);
                 let put = &mut |i, j, found: A| put(i, j, found.in_parameters(change));
                 self.eval_sector(point as usize, sector as usize, corner, [us, vs], put);
             }
@@ -77,7 +83,7 @@ impl Surface {
                 let (us, vs) = (halves(&us), halves(&vs));
                 for (k, [u, v]) in CORNERS.into_iter().enumerate() {
                     let (us, vs) = (us[u as usize].clone(), vs[v as usize].clone());
-                    let child = self.plan.pieces[first as usize + k];
+                    let child = self.layout.plan.pieces[first as usize + k];
                     self.eval_piece(child, us, vs, 2.0 * zoom, put);
                 }
             }
@@ -86,7 +92,7 @@ impl Surface {
 
     /// A sector, whose answers are in its own parameters (a,b), on lines of the square that it
     /// covers.
-    fn eval_sector<A: Answer>(
+    fn eval_sector<A: Answer<N>>(
         &self,
         point: usize,
         sector: usize,
@@ -103,7 +109,7 @@ impl Surface {
         let turned = |lines: Vec<Line>| -> Vec<Line> {
             lines.into_iter().map(|line| Line { at: 1.0 - line.at, ..line }).collect()
         };
-        let rings = &self.rings[point];
+        let rings = self.rings_at(point);
         // As in `to_sector`.
         match corner {
             0 => rings.eval_grid(sector, us, vs, put),

@@ -14,134 +14,64 @@
 //! A parametric quad is one bi-3 patch, one sector of an extraordinary point, or four smaller
 //! pieces ([`isolation`](crate::mesh::isolation)). Evaluation finds the piece and its own
 //! parameters; all pieces are parts of one surface.
+//!
+//! A surface is a [`Layout`], which knows topology, tags and options, and the values at the vertices
+//! of the cage. Positions are values of three numbers; primvars, of one to four, are surfaces too.
 
-mod build;
+mod arrays;
+mod cache;
 mod caps;
+mod error;
 mod eval;
 mod grid;
+mod layout;
+mod options;
+mod patches;
 mod place;
 mod primvar;
 mod rule;
+mod values;
 
-pub use build::SurfaceError;
+pub use arrays::{ArrayError, Number, PatchBlock, row_width};
+pub use cache::RuleCache;
+pub use error::SurfaceError;
+pub use layout::{ExtraordinaryPoint, Layout, Sector};
+pub use options::{CreaseRings, SurfaceOptions};
 pub use place::{PatchPlace, PlacedPatch, Role};
-pub use primvar::PrimvarJet;
 pub use rule::{PointRule, Reason};
 
-use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use crate::mesh::isolation::{Piece, Plan};
-use crate::mesh::sharpness::Beyond;
-use crate::mesh::{BoundaryRule, Cage, FaceId, Fan, HalfEdgeId, INFINITELY_SHARP, VertexId};
+use crate::mesh::{Cage, FaceId, HalfEdgeId, Primvar, Tags, Topology, ValuesError, check_values};
 use crate::net::Quadratic;
-use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
-use crate::patch::kernel::{square, sum, sum_of_rows, tensor_jet};
-use crate::patch::{Answer, Jet, Patch, SurfacePoint};
-use crate::point::{Point, Vector};
+use crate::patch::SurfacePoint;
+use crate::point::Point;
 use crate::rings::Rings;
-use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
-use build::{describe, refined_positions, rings, rules_of_points};
 use caps::Caps;
-use place::{RingPatch, Source, Square, from_sector, ring_domain, to_sector, turned_patch};
+use values::refined;
 
 /// The number of a parametric quad: all quads of face 0, then of face 1, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct QuadId(pub u32);
 
-/// How a surface is built; by default with `qas4` at full precision.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SurfaceOptions {
-    /// The scheme at extraordinary points.
-    pub scheme: SchemeKind,
-    /// The tables of that scheme.
-    pub rules: RuleSet,
-    /// How fast its rings contract.
-    pub contraction: Contraction,
-    /// The rule at the boundary; `None` for that of the cage's tags.
-    pub boundary: Option<BoundaryRule>,
-    /// The rings beside infinitely sharp creases and the boundary.
-    pub creases: CreaseRings,
-}
-
-/// The rings of a vertex on an infinitely sharp crease or the boundary, of which the faces on one
-/// side are not two.
+/// A subdivision surface over a cage: of positions, N = 3, or of other values of N numbers.
 ///
-/// The curve of the crease is the same with both, the cubic spline of its vertices, and so is all of the
-/// surface but for these points. Darts, corners and semi-sharp features keep Catmull-Clark's rules.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum CreaseRings {
-    /// Catmull-Clark's \[CC78\], \[DKT98\], as in OpenSubdiv: without a tangent plane from four faces
-    /// on, and with curvature that grows without bounds.
-    #[default]
-    CatmullClark,
-    /// Fairness-optimal rings, ours: tangent plane and bounded curvature for 1 to
-    /// [`MAX_FAIR_FACES`](crate::scheme::MAX_FAIR_FACES) faces; Catmull-Clark's for more.
-    Fair,
-}
-
-impl SurfaceOptions {
-    /// Which rules of the scheme are taken.
-    pub fn variant(&self) -> Variant {
-        Variant { rules: self.rules, contraction: self.contraction }
-    }
-}
-
-/// A subdivision surface over a cage.
+/// What it computes once it keeps: the values of refined levels, the rings and caps around
+/// extraordinary points, and its primvars. New values ([`Surface::set_values`]) and new quadratics
+/// make it forget what depends on them.
 #[derive(Debug)]
-pub struct Surface {
-    cage: Arc<Cage>,
-    options: SurfaceOptions,
-    plan: Plan,
-    /// The positions of the refined levels.
-    refined: Vec<Vec<Point>>,
-    /// The rings around every extraordinary point.
-    rings: Vec<Rings>,
-    points: Vec<ExtraordinaryPoint>,
+pub struct Surface<const N: usize = 3> {
+    layout: Arc<Layout>,
+    /// The values at the vertices of the cage, and of every refined level.
+    levels: Vec<Arc<[[f64; N]]>>,
+    /// The rings around every extraordinary point, made when they are first asked for.
+    rings: Vec<OnceLock<Rings<N>>>,
     /// What closes the holes behind some rings.
-    caps: Option<Caps>,
-    /// The primvars, built when first asked for.
-    channels: Vec<OnceLock<primvar::Channel>>,
-}
-
-/// An extraordinary point of the surface: an interior vertex of valence other than 4, the centre of
-/// an n-gon, or a vertex on sharp edges or the boundary that is not regular there.
-#[derive(Clone, Debug)]
-pub struct ExtraordinaryPoint {
-    /// The vertex of the cage; `None` for the centre of an n-gon.
-    pub vertex: Option<VertexId>,
-    /// The n-gon whose centre this is; `None` for a vertex.
-    pub face: Option<FaceId>,
-    /// The number of edges that meet here.
-    pub valence: usize,
-    /// The faces that it concerns: all around, or those between two sharp edges. A vertex with
-    /// sharp edges is as many points as it has irregular fans.
-    pub fan: Fan,
-    /// The rule that it gets, and why.
-    pub rule: PointRule,
-    /// The level of Catmull-Clark refinement at which it is isolated: 0 to 2, more where something
-    /// is semi-sharp.
-    pub level: usize,
-    /// The limit point.
-    pub position: Point,
-    /// The limit normal; NaN if there is no tangent plane.
-    pub normal: Vector,
-    /// The sectors counter-clockwise, without those in omitted faces.
-    pub sectors: Vec<Sector>,
-}
-
-/// The piece of a parametric quad that belongs to an extraordinary point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sector {
-    /// The number of the sector around its point.
-    pub index: usize,
-    /// The parametric quad.
-    pub quad: QuadId,
-    /// The parameters of the extraordinary point in that quad.
-    pub center: [f64; 2],
-    /// The parameter steps from the centre to the ends of the sector's two lines:
-    /// `center + a * along[0] + b * along[1]` with a and b from 0 to 1 covers the sector.
-    pub along: [[f64; 2]; 2],
+    caps: Option<Caps<N>>,
+    /// The primvars of the cage; of a primvar none.
+    primvars: Arc<[Primvar]>,
+    /// Their surfaces, built when they are first asked for, shared with all poses.
+    channels: Vec<Arc<OnceLock<primvar::Channel>>>,
 }
 
 impl Surface {
@@ -155,109 +85,79 @@ impl Surface {
     /// [`SurfaceError::NoRules`] if more than 1024 faces meet at a point; where the scheme has no
     /// rules, the point gets Catmull-Clark's ([`ExtraordinaryPoint::rule`]).
     /// [`SurfaceError::Contraction`] if the scheme has no such contraction
-    /// ([`SchemeKind::check_contraction`]).
+    /// ([`SchemeKind::check_contraction`](crate::SchemeKind::check_contraction)).
     pub fn build(
         cage: impl Into<Arc<Cage>>,
         options: SurfaceOptions,
     ) -> Result<Self, SurfaceError> {
-        Self::build_channel(cage.into(), options, BTreeMap::new())
+        let cage = cage.into();
+        let layout = Arc::new(Layout::new(&cage, options)?);
+        let values = cage.shared_positions().clone();
+        Ok(Self::with_primvars(layout, values, cage.shared_primvars().clone()))
     }
 
-    /// The surface over the net of a channel; `beyond` are the edges beyond its seams.
-    fn build_channel(
-        cage: Arc<Cage>,
-        options: SurfaceOptions,
-        beyond: BTreeMap<VertexId, Beyond>,
-    ) -> Result<Self, SurfaceError> {
-        let boundary = options.boundary.unwrap_or(cage.tags().boundary);
-        let plan = Plan::new(&cage, boundary, beyond);
-        let rules = rules_of_points(&cage, &plan, options)?;
-        let refined = refined_positions(&cage, &plan);
-        let around = |(p, (_, rules)): (usize, &(_, _))| rings(&cage, &plan, &refined, p, rules);
-        let rings: Vec<Rings> = rules.iter().enumerate().map(around).collect();
-        let of_point = |(p, rings)| describe(&plan, p, rules[p].0, rings);
-        let points = rings.iter().enumerate().map(of_point).collect();
-        let channels = primvar::unbuilt(&cage);
-        Ok(Self { cage, options, plan, refined, rings, points, caps: None, channels })
-    }
-
-    /// The cage.
-    pub fn cage(&self) -> &Cage {
-        &self.cage
-    }
-
-    /// How it was built.
-    pub fn options(&self) -> SurfaceOptions {
-        self.options
-    }
-
-    /// The number of parametric quads, omitted ones included.
-    pub fn num_quads(&self) -> usize {
-        self.plan.first_quads.last().map_or(0, |&n| n as usize)
-    }
-
-    /// The parametric quad at `corner` of `face`; for a face with four corners the corner must
-    /// be 0. `None` if there is no such face or corner.
-    pub fn quad(&self, face: FaceId, corner: usize) -> Option<QuadId> {
-        let first = *self.plan.first_quads.get(face.index())?;
-        let end = *self.plan.first_quads.get(face.index() + 1)?;
-        let quad = u32::try_from(corner).ok().and_then(|k| first.checked_add(k))?;
-        (quad < end).then_some(QuadId(quad))
-    }
-
-    /// The face of `quad`, and the corner if the face is an n-gon (else 0).
+    /// The surface of a cage over its layout, which others may share.
     ///
-    /// # Panics
+    /// ```
+    /// use std::sync::Arc;
+    /// use evenlight::surface::Layout;
+    /// use evenlight::{Cage, Mesh, Surface, SurfaceOptions};
     ///
-    /// If there is no such quad.
-    pub fn face_of(&self, quad: QuadId) -> (FaceId, usize) {
-        assert!((quad.0 as usize) < self.num_quads(), "there is no quad {}", quad.0);
-        let face = self.plan.first_quads.partition_point(|&first| first <= quad.0) - 1;
-        (FaceId(face as u32), (quad.0 - self.plan.first_quads[face]) as usize)
-    }
-
-    /// Whether there is no surface over `face`: a hole, or at the boundary under the rule "none".
-    pub fn is_omitted(&self, face: FaceId) -> bool {
-        self.plan.omitted.binary_search(&face).is_ok()
-    }
-
-    /// Whether the surface may have a fold along an edge of the cage: it is infinitely sharp or on
-    /// the boundary.
-    pub fn is_infinitely_sharp(&self, h: HalfEdgeId) -> bool {
-        self.plan.sharpness[0].edge(self.cage.topology(), h) >= INFINITELY_SHARP
-            || self.cage.topology().twin(h).is_none()
-    }
-
-    /// The faces without a surface, in order.
-    pub fn omitted_faces(&self) -> &[FaceId] {
-        &self.plan.omitted
-    }
-
-    /// The extraordinary points that have a surface around them.
-    pub fn extraordinary_points(&self) -> &[ExtraordinaryPoint] {
-        &self.points
-    }
-
-    /// The rings around an extraordinary point, by its index.
-    pub fn rings(&self, point: usize) -> &Rings {
-        &self.rings[point]
-    }
-
-    /// Replaces the quadratic q of an extraordinary point, by its index; `false` if the scheme has
-    /// no quadratics.
+    /// let square = vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+    /// let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]]))?;
+    /// let layout = Arc::new(Layout::new(&cage, SurfaceOptions::default())?);
+    /// let surface = Surface::of_cage(&layout, &cage)?;
+    /// assert_eq!(surface.positions(), cage.positions());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
-    /// # Panics
+    /// # Errors
     ///
-    /// If there is no such point.
-    pub fn set_quadratic(&mut self, point: usize, q: &Quadratic) -> bool {
-        let Some(rings) = self.rings[point].with_quadratic(q) else { return false };
-        self.points[point].position = rings.center();
-        self.points[point].normal = rings.normal();
-        self.rings[point] = rings;
-        if let Some(caps) = &mut self.caps {
-            caps.forget(point);
-        }
-        true
+    /// [`ValuesError::Count`] if the cage has not as many vertices as the layout.
+    pub fn of_cage(layout: &Arc<Layout>, cage: &Cage) -> Result<Self, ValuesError> {
+        let values = cage.shared_positions().clone();
+        check_values(&values, layout.num_vertices())?;
+        // Those of another cage do not fit.
+        let is_own = cage.topology().faces() == layout.topology().faces();
+        let primvars = if is_own { cage.shared_primvars().clone() } else { Arc::default() };
+        Ok(Self::with_primvars(layout.clone(), values, primvars))
+    }
+
+    /// The positions of the cage's vertices.
+    pub fn positions(&self) -> &[Point] {
+        self.values()
+    }
+
+    /// The same surface over other positions of the cage's vertices, with the same layout, kind of caps
+    /// and primvars. Quadratics are the default ones again.
+    ///
+    /// ```
+    /// use evenlight::{Cage, Mesh, QuadId, Surface, SurfaceOptions};
+    ///
+    /// let square = vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+    /// let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]]))?;
+    /// let surface = Surface::build(cage, SurfaceOptions::default())?;
+    /// let lifted: Vec<_> = surface.positions().iter().map(|&[x, y, _]| [x, y, 2.0]).collect();
+    /// let pose = surface.with_positions(lifted)?;
+    /// let [x, y, z] = pose.eval_position(QuadId(0), 0.5, 0.5).ok_or("there is a surface")?;
+    /// assert!((x - 0.5).abs() < 1e-15 && (y - 0.5).abs() < 1e-15 && (z - 2.0).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`ValuesError`] if there are not as many, or one is not finite.
+    pub fn with_positions(&self, positions: Vec<Point>) -> Result<Self, ValuesError> {
+        self.with_values(positions)
+    }
+
+    /// [`Surface::with_positions`] in place.
+    ///
+    /// # Errors
+    ///
+    /// [`ValuesError`] if there are not as many, or one is not finite; the surface stays as it was.
+    pub fn set_positions(&mut self, positions: Vec<Point>) -> Result<(), ValuesError> {
+        self.set_values(positions)
     }
 
     /// Position, derivatives, normal and curvature at (u,v) of `quad`, which are clamped to
@@ -271,165 +171,148 @@ impl Surface {
     pub fn eval(&self, quad: QuadId, u: f64, v: f64) -> Option<SurfacePoint> {
         self.eval_as(quad, u, v)
     }
+}
 
-    /// A sector of an extraordinary point at its own parameters.
+impl<const N: usize> Surface<N> {
+    /// The surface of values, one for each vertex of the cage, over a layout.
+    ///
+    /// # Errors
+    ///
+    /// [`ValuesError`] if there are not as many, or one is not finite.
+    pub fn over(layout: &Arc<Layout>, values: Vec<[f64; N]>) -> Result<Self, ValuesError> {
+        check_values(&values, layout.num_vertices())?;
+        Ok(Self::with_primvars(layout.clone(), values.into(), Arc::default()))
+    }
+
+    /// Over values that are known to fit.
+    fn with_primvars(
+        layout: Arc<Layout>,
+        values: Arc<[[f64; N]]>,
+        primvars: Arc<[Primvar]>,
+    ) -> Self {
+        let levels = refined(&layout, values);
+        let rings = unmade(layout.extraordinary_points().len());
+        let channels = primvar::unbuilt(&primvars);
+        Self { layout, levels, rings, caps: None, primvars, channels }
+    }
+
+    /// The same surface over other values, with the same layout, kind of caps and primvars. Quadratics
+    /// are the default ones again.
+    ///
+    /// Takes the time of checking the values and refining what is refined; rings and caps are made when
+    /// they are asked for.
+    ///
+    /// # Errors
+    ///
+    /// [`ValuesError`] if there are not as many, or one is not finite.
+    pub fn with_values(&self, values: Vec<[f64; N]>) -> Result<Self, ValuesError> {
+        check_values(&values, self.layout.num_vertices())?;
+        Ok(Self {
+            layout: self.layout.clone(),
+            levels: refined(&self.layout, values.into()),
+            rings: unmade(self.rings.len()),
+            caps: self.caps.as_ref().map(Caps::unmade),
+            primvars: self.primvars.clone(),
+            channels: self.channels.clone(),
+        })
+    }
+
+    /// [`Surface::with_values`] in place.
+    ///
+    /// # Errors
+    ///
+    /// [`ValuesError`] if there are not as many, or one is not finite; the surface stays as it was.
+    pub fn set_values(&mut self, values: Vec<[f64; N]>) -> Result<(), ValuesError> {
+        *self = self.with_values(values)?;
+        Ok(())
+    }
+
+    /// The layout: topology, tags, options, and what follows from them.
+    pub fn layout(&self) -> &Arc<Layout> {
+        &self.layout
+    }
+
+    /// The values at the cage's vertices.
+    pub fn values(&self) -> &[[f64; N]] {
+        &self.levels[0]
+    }
+
+    /// The connectivity of the cage.
+    pub fn topology(&self) -> &Topology {
+        self.layout.topology()
+    }
+
+    /// Boundary rule, creases, corners and holes of the cage.
+    pub fn tags(&self) -> &Tags {
+        self.layout.tags()
+    }
+
+    /// How it was built.
+    pub fn options(&self) -> SurfaceOptions {
+        self.layout.options()
+    }
+
+    /// The number of parametric quads, omitted ones included.
+    pub fn num_quads(&self) -> usize {
+        self.layout.num_quads()
+    }
+
+    /// [`Layout::quad`].
+    pub fn quad(&self, face: FaceId, corner: usize) -> Option<QuadId> {
+        self.layout.quad(face, corner)
+    }
+
+    /// [`Layout::face_of`].
+    pub fn face_of(&self, quad: QuadId) -> Option<(FaceId, usize)> {
+        self.layout.face_of(quad)
+    }
+
+    /// [`Layout::is_omitted`].
+    pub fn is_omitted(&self, face: FaceId) -> bool {
+        self.layout.is_omitted(face)
+    }
+
+    /// [`Layout::omitted_faces`].
+    pub fn omitted_faces(&self) -> &[FaceId] {
+        self.layout.omitted_faces()
+    }
+
+    /// [`Layout::is_infinitely_sharp`].
+    pub fn is_infinitely_sharp(&self, h: HalfEdgeId) -> bool {
+        self.layout.is_infinitely_sharp(h)
+    }
+
+    /// [`Layout::extraordinary_points`].
+    pub fn extraordinary_points(&self) -> &[ExtraordinaryPoint] {
+        self.layout.extraordinary_points()
+    }
+
+    /// The rings around an extraordinary point, by its index; `None` if there is no such point.
+    pub fn rings(&self, point: usize) -> Option<&Rings<N>> {
+        (point < self.rings.len()).then(|| self.rings_at(point))
+    }
+
+    /// The rings around a point that exists.
     #[inline]
-    fn eval_around<A: Answer>(&self, point: usize, sector: usize, at: [f64; 2]) -> A {
-        let rings = &self.rings[point];
-        if let Some(cap) = self.cap(point) {
-            let in_hole = rings.in_hole(cap.rings(), at);
-            if in_hole[0].max(in_hole[1]) <= 1.0 {
-                return cap.eval_as(rings, sector, in_hole);
-            }
-        }
-        rings.eval_as(sector, at[0], at[1])
+    pub(crate) fn rings_at(&self, point: usize) -> &Rings<N> {
+        self.rings[point].get_or_init(|| self.make_rings(point))
     }
 
-    /// All regular patches and the rings 1 to `rings` of every extraordinary point, quad by
-    /// quad; of a closed surface no more rings than it has, and if it is all of them the caps.
-    pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch> + '_ {
-        self.patch_places(rings).map(|place| {
-            let PatchPlace { role, quad, domain, point, sector, .. } = place;
-            PlacedPatch { role, quad, domain, point, sector, patch: self.patch(&place) }
-        })
-    }
-
-    /// Where the patches of [`Surface::patches`] lie.
-    pub fn patch_places(&self, rings: usize) -> impl Iterator<Item = PatchPlace> + '_ {
-        (0..self.num_quads() as u32).flat_map(move |quad| {
-            let mut places = Vec::new();
-            let whole = Square { quad: QuadId(quad), origin: [0.0; 2], size: 1.0 };
-            self.collect_places(self.plan.pieces[quad as usize], whole, rings, &mut places);
-            places
-        })
-    }
-
-    /// The polynomial of a patch.
-    pub fn patch(&self, place: &PatchPlace) -> Patch {
-        match place.source {
-            Source::Net(net) => self.regular_patch(net),
-            Source::Ring(RingPatch { point, sector, ring, which, corner, .. }) => {
-                turned_patch(corner, self.rings[point].patch(ring, sector, which))
-            }
-            Source::Cap(RingPatch { point, sector, which, corner, .. }) => {
-                let cap = self.cap(point).expect("places of caps are those of caps");
-                turned_patch(corner, cap.patch(&self.rings[point], sector, which))
-            }
-        }
-    }
-
-    /// What a patch says at (u,v) of its quad, on its borders too: [`Surface::eval`] chooses the
-    /// patch by itself. Derivatives are in the quad's parameters and, unlike those of the
-    /// polynomial in world coordinates, exact to rounding at any depth.
-    pub fn eval_on(&self, place: &PatchPlace, u: f64, v: f64) -> SurfacePoint {
-        match place.source {
-            Source::Net(net) => {
-                let [[u0, u1], [v0, v1]] = place.domain;
-                let jet = self.regular_jet(2, net, [(u - u0) / (u1 - u0), (v - v0) / (v1 - v0)]);
-                jet.scaled_parameters(1.0 / (u1 - u0)).into()
-            }
-            Source::Ring(RingPatch { point, sector, ring, which, square, corner }) => {
-                let [a, b] = to_sector(corner, square.parameters([u, v]));
-                let found = self.rings[point].eval_on(ring, sector, which, a, b);
-                let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
-                SurfacePoint { jet, ..found }
-            }
-            Source::Cap(RingPatch { point, sector, ring, which, square, corner }) => {
-                let cap = self.cap(point).expect("places of caps are those of caps");
-                let rings = &self.rings[point];
-                let at = rings.in_hole(ring, to_sector(corner, square.parameters([u, v])));
-                let found = cap.eval_on(rings, sector, which, at);
-                let jet = from_sector(corner, &found.jet).scaled_parameters(1.0 / square.size);
-                SurfacePoint { jet, ..found }
-            }
-        }
-    }
-
-    fn collect_places(
-        &self,
-        piece: Piece,
-        square: Square,
-        rings: usize,
-        out: &mut Vec<PatchPlace>,
-    ) {
-        match piece {
-            Piece::Omitted => {}
-            Piece::Regular(net) => out.push(PatchPlace {
-                role: Role::Regular,
-                quad: square.quad,
-                domain: square.part([[0.0, 1.0], [0.0, 1.0]]),
-                point: None,
-                sector: None,
-                source: Source::Net(net),
-            }),
-            Piece::Sector { point, sector, corner } => {
-                let (point, sector) = (point as usize, sector as usize);
-                self.collect_sector(point, sector, corner, square, rings, out);
-            }
-            Piece::Split(first) => {
-                for k in 0..4 {
-                    let child = self.plan.pieces[first as usize + k];
-                    self.collect_places(child, square.child(k), rings, out);
-                }
-            }
-        }
-    }
-
-    fn collect_sector(
-        &self,
-        point: usize,
-        sector: usize,
-        corner: u8,
-        square: Square,
-        rings: usize,
-        out: &mut Vec<PatchPlace>,
-    ) {
-        let around = &self.rings[point];
-        let place = |role, ring, which, domain| {
-            let patch = RingPatch { point, sector, ring, which, square, corner };
-            PatchPlace {
-                role,
-                quad: square.quad,
-                domain: square.part(ring_domain(corner, around.sigma(), ring, domain)),
-                point: Some(point),
-                sector: Some(sector),
-                source: if role == Role::Cap { Source::Cap(patch) } else { Source::Ring(patch) },
-            }
+    /// Replaces the quadratic q of an extraordinary point, by its index; `false` if the scheme has
+    /// no quadratics, or there is no such point.
+    pub fn set_quadratic(&mut self, point: usize, q: &Quadratic<N>) -> bool {
+        let Some(rings) = self.rings(point).and_then(|rings| rings.with_quadratic(q)) else {
+            return false;
         };
-        let cap = self.cap(point);
-        let count = cap.map_or(rings, |cap| rings.min(cap.rings()));
-        for (ring, which) in
-            (0..count).flat_map(|ring| (0..around.patches_per_sector()).map(move |k| (ring, k)))
-        {
-            out.push(place(Role::Ring(ring + 1), ring, which, around.patch_domain(which)));
+        self.rings[point] = OnceLock::from(rings);
+        if let Some(caps) = &mut self.caps {
+            caps.forget(point);
         }
-        if let Some(cap) = cap.filter(|cap| cap.rings() <= rings) {
-            let all = 0..cap.patches_per_sector();
-            out.extend(all.map(|k| place(Role::Cap, cap.rings(), k, cap.patch_domain(k))));
-        }
+        true
     }
+}
 
-    #[inline]
-    fn positions(&self, level: usize) -> &[Point] {
-        if level == 0 { self.cage.positions() } else { &self.refined[level - 1] }
-    }
-
-    #[inline]
-    fn net_points(&self, net: u32) -> [Point; 16] {
-        let net = &self.plan.nets[net as usize];
-        net.points(self.positions(net.level as usize))
-    }
-
-    #[inline(always)]
-    fn regular_jet(&self, order: usize, net: u32, [u, v]: [f64; 2]) -> Jet {
-        let points = self.net_points(net);
-        tensor_jet(order, &cubic_b_spline(u), &cubic_b_spline(v), square(&points))
-    }
-
-    fn regular_patch(&self, net: u32) -> Patch {
-        let points = self.net_points(net);
-        let along_u = CUBIC_B_SPLINE_TO_BB.map(|row| sum_of_rows(&row, square(&points)));
-        let along_v = |p: [Point; 4]| CUBIC_B_SPLINE_TO_BB.map(|row| sum(&row, &p));
-        Patch::new([3, 3], along_u.map(along_v).as_flattened().to_vec())
-    }
+/// So many rings, none of them made.
+fn unmade<const N: usize>(count: usize) -> Vec<OnceLock<Rings<N>>> {
+    std::iter::repeat_with(OnceLock::new).take(count).collect()
 }

@@ -70,7 +70,7 @@ pub(super) struct RingPatch {
 
 /// One polynomial patch of the surface and where it lies.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlacedPatch {
+pub struct PlacedPatch<const N: usize = 3> {
     /// What it is part of.
     pub role: Role,
     /// The parametric quad that it lies in.
@@ -84,7 +84,7 @@ pub struct PlacedPatch {
     /// The sector of that point, from 0.
     pub sector: Option<usize>,
     /// The polynomial.
-    pub patch: Patch,
+    pub patch: Patch<N>,
 }
 
 /// A square of a parametric quad.
@@ -145,7 +145,7 @@ pub(super) fn from_sector_parameters(corner: u8, [a, b]: [f64; 2]) -> [f64; 2] {
 }
 
 /// The jet in (u,v) of a map given in (a,b).
-pub(super) fn from_sector(corner: u8, jet: &Jet) -> Jet {
+pub(super) fn from_sector<const N: usize>(corner: u8, jet: &Jet<N>) -> Jet<N> {
     let minus = |r| scale(-1.0, r);
     let Jet { p, du: da, dv: db, duu: daa, duv: dab, dvv: dbb } = *jet;
     match corner {
@@ -157,7 +157,7 @@ pub(super) fn from_sector(corner: u8, jet: &Jet) -> Jet {
 }
 
 /// A patch given in (a,b) with its parameters along (u,v).
-pub(super) fn turned_patch(corner: u8, patch: Patch) -> Patch {
+pub(super) fn turned_patch<const N: usize>(corner: u8, patch: Patch<N>) -> Patch<N> {
     let [d, _] = patch.degree();
     // Coefficient (i, j) of the result is number first + i * by_i + j * by_j of the patch.
     let order = d as isize + 1;

@@ -4,145 +4,138 @@
 //! | --- | --- |
 //! | vertex | as the position: by the scheme, with the cage's creases and corners |
 //! | varying | bilinear; an n-gon by the middles of its edges and its centre |
-//! | face-varying | a surface of its own on the channel's own net, whose seams are boundaries, see [`FaceVaryingRule`]; with the rule "all" like varying |
+//! | face-varying | a surface of its own on the primvar's own net, whose seams are boundaries, see [`FaceVaryingRule`]; with the rule "all" like varying |
 //!
-//! Where the net of a face-varying channel is smooth around an extraordinary point it has the
+//! Where the net of a face-varying primvar is smooth around an extraordinary point it has the
 //! surface's scheme there; elsewhere Catmull-Clark's rules, also if positions have
 //! fair rings beside creases ([`CreaseRings::Fair`]).
 //!
-//! Channels are built when they are first asked for.
+//! A vertex primvar has the layout of the positions, a face-varying one a layout of its own. Both are
+//! [`Surface`]s of as many numbers as the primvar has, built when they are first asked for.
 
-use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use super::{CreaseRings, QuadId, Surface, SurfaceOptions};
+use super::{CreaseRings, Layout, QuadId, Surface, SurfaceOptions};
 use crate::cap::CapOptions;
-use crate::mesh::channel::{ChannelNet, triple};
-use crate::mesh::sharpness::Beyond;
-use crate::mesh::{Cage, FaceVaryingRule, Interpolation, Mesh, Primvar, VertexId};
+use crate::mesh::channel::ChannelNet;
+use crate::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use crate::patch::Jet;
-
-/// The value of a primvar and its derivatives by the parameters of a quad; numbers beyond the
-/// primvar's width are 0.
-///
-/// Derivatives do not exist (NaN) where those of a surface do not: at extraordinary points.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PrimvarJet {
-    /// The value.
-    pub value: [f64; 4],
-    /// The derivative in u.
-    pub du: [f64; 4],
-    /// The derivative in v.
-    pub dv: [f64; 4],
-    /// The second derivative in u.
-    pub duu: [f64; 4],
-    /// The mixed second derivative.
-    pub duv: [f64; 4],
-    /// The second derivative in v.
-    pub dvv: [f64; 4],
-}
-
-impl PrimvarJet {
-    /// Puts the numbers of a jet from number `first` on.
-    fn put(&mut self, first: usize, jet: &Jet) {
-        let own = [
-            &mut self.value,
-            &mut self.du,
-            &mut self.dv,
-            &mut self.duu,
-            &mut self.duv,
-            &mut self.dvv,
-        ];
-        for (own, row) in own.into_iter().zip(jet.rows()) {
-            own.iter_mut().skip(first).zip(row).for_each(|(x, y)| *x = y);
-        }
-    }
-
-    /// The bilinear map of a value at each corner of the unit square, in the order of a face.
-    fn bilinear(corners: [[f64; 4]; 4], u: f64, v: f64) -> Self {
-        let mix = |weights: [f64; 4]| {
-            [0, 1, 2, 3].map(|k| (0..4).map(|corner| weights[corner] * corners[corner][k]).sum())
-        };
-        Self {
-            value: mix([(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]),
-            du: mix([v - 1.0, 1.0 - v, v, -v]),
-            dv: mix([u - 1.0, -u, u, 1.0 - u]),
-            duv: mix([1.0, -1.0, 1.0, -1.0]),
-            ..Self::default()
-        }
-    }
-}
 
 /// A primvar that can be evaluated.
 #[derive(Debug)]
 pub(super) enum Channel {
+    /// Bilinear over every quad.
     Linear,
-    /// Surfaces of three of the numbers each; `None` if there is none, see [`Channel::surface`].
-    Smooth(Vec<Option<Surface>>),
+    /// Smooth, by its width.
+    Smooth1(Surface<1>),
+    Smooth2(Surface<2>),
+    Smooth3(Surface<3>),
+    Smooth4(Surface<4>),
+    /// There is no surface, which does not happen: the smooth extraordinary points of a primvar are
+    /// among those of the positions, for which the scheme has rules, and the others have those of
+    /// Catmull-Clark.
+    None,
 }
 
 impl Channel {
-    fn new(surface: &Surface, primvar: &Primvar) -> Self {
-        let (cage, options, caps) = (&surface.cage, surface.options, surface.cap_options());
-        let parts = (0..primvar.width).step_by(3);
-        match primvar.interpolation {
-            Interpolation::Varying => Self::Linear,
-            Interpolation::FaceVarying if cage.tags().face_varying == FaceVaryingRule::All => {
-                Self::Linear
+    fn new(layout: &Arc<Layout>, caps: Option<CapOptions>, primvar: &Primvar) -> Self {
+        let over = match primvar.interpolation {
+            Interpolation::Varying => return Self::Linear,
+            Interpolation::FaceVarying if layout.tags().face_varying == FaceVaryingRule::All => {
+                return Self::Linear;
             }
-            Interpolation::FaceVarying => {
-                let boundary = options.boundary.unwrap_or(cage.tags().boundary);
-                let net = ChannelNet::new(cage, primvar, boundary);
-                // The channel has a boundary rule of its own, and at its seams what others make of it.
-                let creases = CreaseRings::CatmullClark;
-                let options = SurfaceOptions { boundary: None, creases, ..options };
-                let beyond = || net.beyond.clone();
-                let surface =
-                    |first| Self::surface(net.mesh(primvar, first), options, caps, beyond());
-                Self::Smooth(parts.map(surface).collect())
-            }
+            Interpolation::FaceVarying => Self::own_layout(layout, primvar),
             Interpolation::Vertex => {
-                let mesh = |first| as_positions(cage, primvar, first);
-                let surface = |first| Self::surface(mesh(first), options, caps, BTreeMap::new());
-                Self::Smooth(parts.map(surface).collect())
+                let vertices = 0..layout.num_vertices() as u32;
+                Some((layout.clone(), vertices.collect()))
             }
-        }
+        };
+        let Some((layout, values)) = over else { return Self::None };
+        let smooth = match primvar.width {
+            1 => surface(&layout, caps, primvar, &values).map(Self::Smooth1),
+            2 => surface(&layout, caps, primvar, &values).map(Self::Smooth2),
+            3 => surface(&layout, caps, primvar, &values).map(Self::Smooth3),
+            _ => surface(&layout, caps, primvar, &values).map(Self::Smooth4),
+        };
+        debug_assert!(smooth.is_some(), "a primvar has no points that the positions have not");
+        smooth.unwrap_or(Self::None)
     }
 
-    /// The surface over a channel's mesh. There always is one: its smooth extraordinary points are
-    /// among those of the positions, for which the scheme has rules, and the others have those of
-    /// Catmull-Clark.
-    fn surface(
-        mesh: Mesh,
-        options: SurfaceOptions,
-        caps: Option<CapOptions>,
-        beyond: BTreeMap<VertexId, Beyond>,
-    ) -> Option<Surface> {
-        let cage = Arc::new(Cage::new(mesh).ok()?);
-        let surface = Surface::build_channel(cage, options, beyond).ok();
-        debug_assert!(surface.is_some(), "a channel has no points that the positions have not");
-        let mut surface = surface?;
-        let closed = surface.set_caps(caps);
-        debug_assert!(closed.is_ok(), "its rings are as those of the positions");
-        Some(surface)
+    /// The layout of a face-varying primvar, and the number of the value at each of its vertices.
+    fn own_layout(layout: &Layout, primvar: &Primvar) -> Option<(Arc<Layout>, Vec<u32>)> {
+        let options = layout.options();
+        let boundary = options.boundary.unwrap_or(layout.tags().boundary);
+        let net = ChannelNet::new(layout.topology(), layout.tags(), primvar, boundary);
+        // The primvar has a boundary rule of its own, and at its seams what others make of it.
+        let creases = CreaseRings::CatmullClark;
+        let options = SurfaceOptions { boundary: None, creases, ..options };
+        let topology = layout.topology().with_vertices(net.faces, net.values.len()).ok()?;
+        let topology = Arc::new(topology);
+        let tags = Arc::new(net.tags);
+        let own = Layout::of_net(topology, tags, net.beyond, options, layout.cache()).ok()?;
+        Some((Arc::new(own), net.values))
     }
 }
 
-/// The cage with the numbers of a vertex primvar in the place of positions.
-fn as_positions(cage: &Cage, primvar: &Primvar, first: usize) -> Mesh {
-    let positions = (0..cage.positions().len()).map(|v| triple(primvar, v, first)).collect();
-    let (faces, tags) = (cage.topology().faces().clone(), cage.tags().clone());
-    Mesh { positions, faces, tags, primvars: Vec::new() }
+/// The surface of a primvar over a layout at whose vertices it has the values of these numbers.
+fn surface<const N: usize>(
+    layout: &Arc<Layout>,
+    caps: Option<CapOptions>,
+    primvar: &Primvar,
+    values: &[u32],
+) -> Option<Surface<N>> {
+    let (all, _) = primvar.values.as_chunks::<N>();
+    let values = values.iter().map(|&number| all[number as usize]).collect();
+    let mut surface = Surface::over(layout, values).ok()?;
+    surface.set_caps(caps).ok()?;
+    Some(surface)
+}
+
+/// The first N numbers of a value; those beyond the primvar's width are 0.
+fn padded<const N: usize>(primvar: &Primvar, value: usize) -> [f64; N] {
+    let numbers = &primvar.values[value * primvar.width..][..primvar.width];
+    std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0))
+}
+
+/// The first N numbers of a jet of M.
+#[inline]
+fn resized<const M: usize, const N: usize>(jet: &Jet<M>) -> Jet<N> {
+    let row = |x: &[f64; M]| {
+        let mut row = [0.0; N];
+        for k in 0..N.min(M) {
+            row[k] = x[k];
+        }
+        row
+    };
+    let Jet { p, du, dv, duu, duv, dvv } = jet;
+    Jet { p: row(p), du: row(du), dv: row(dv), duu: row(duu), duv: row(duv), dvv: row(dvv) }
+}
+
+/// The bilinear map of a value at each corner of the unit square, in the order of a face.
+fn bilinear<const N: usize>(corners: [[f64; N]; 4], u: f64, v: f64) -> Jet<N> {
+    let mix = |weights: [f64; 4]| -> [f64; N] {
+        std::array::from_fn(|k| (0..4).map(|corner| weights[corner] * corners[corner][k]).sum())
+    };
+    Jet {
+        p: mix([(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]),
+        du: mix([v - 1.0, 1.0 - v, v, -v]),
+        dv: mix([u - 1.0, -u, u, 1.0 - u]),
+        duv: mix([1.0, -1.0, 1.0, -1.0]),
+        ..Jet::default()
+    }
 }
 
 impl Surface {
     /// The primvars of the cage.
     pub fn primvars(&self) -> &[Primvar] {
-        self.cage.primvars()
+        &self.primvars
     }
 
     /// Value and derivatives of a primvar, by its index, at (u,v) of `quad`, which are clamped to
-    /// 0..1; `None` where [`Surface::eval`] is, and if there is no such primvar.
+    /// 0..1: its first N numbers, those beyond its width being 0. `None` where [`Surface::eval`] is, and
+    /// if there is no such primvar.
+    ///
+    /// Derivatives do not exist (NaN) where those of a surface do not: at extraordinary points.
     ///
     /// ```
     /// use evenlight::io::obj;
@@ -153,58 +146,119 @@ impl Surface {
     /// let (cage, _) = obj::read_cage(text.as_bytes())?;
     /// let surface = Surface::build(cage, SurfaceOptions::default())?;
     /// let quad = surface.quad(FaceId(0), 0).expect("the only face is a quad");
-    /// let st = surface.eval_primvar(0, quad, 0.5, 0.5).expect("there is a texture");
-    /// assert!((st.value[0] - 1.0).abs() < 1e-15 && (st.value[1] - 1.0).abs() < 1e-15);
+    /// let st = surface.eval_primvar::<2>(0, quad, 0.5, 0.5).expect("there is a texture");
+    /// assert!((st.p[0] - 1.0).abs() < 1e-15 && (st.p[1] - 1.0).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn eval_primvar(&self, primvar: usize, quad: QuadId, u: f64, v: f64) -> Option<PrimvarJet> {
-        let of_cage = self.primvars().get(primvar)?;
-        if u.is_nan() || v.is_nan() || (quad.0 as usize) >= self.num_quads() {
+    pub fn eval_primvar<const N: usize>(
+        &self,
+        primvar: usize,
+        quad: QuadId,
+        u: f64,
+        v: f64,
+    ) -> Option<Jet<N>> {
+        match self.channel(primvar)? {
+            Channel::Linear => self.eval_linear(primvar, quad, [u, v]),
+            Channel::Smooth1(surface) => surface.eval_second(quad, u, v).map(|jet| resized(&jet)),
+            Channel::Smooth2(surface) => surface.eval_second(quad, u, v).map(|jet| resized(&jet)),
+            Channel::Smooth3(surface) => surface.eval_second(quad, u, v).map(|jet| resized(&jet)),
+            Channel::Smooth4(surface) => surface.eval_second(quad, u, v).map(|jet| resized(&jet)),
+            Channel::None => None,
+        }
+    }
+
+    /// The surface of a primvar, by its index, if it is smooth and has N numbers; for everything that
+    /// surfaces can do.
+    pub fn primvar_surface<const N: usize>(&self, primvar: usize) -> Option<&Surface<N>> {
+        let surface: &dyn std::any::Any = match self.channel(primvar)? {
+            Channel::Smooth1(surface) => surface,
+            Channel::Smooth2(surface) => surface,
+            Channel::Smooth3(surface) => surface,
+            Channel::Smooth4(surface) => surface,
+            Channel::Linear | Channel::None => return None,
+        };
+        surface.downcast_ref()
+    }
+
+    fn channel(&self, primvar: usize) -> Option<&Channel> {
+        let of_cage = self.primvars.get(primvar)?;
+        let make = || Channel::new(&self.layout, self.cap_options(), of_cage);
+        Some(self.channels[primvar].get_or_init(make))
+    }
+
+    /// The values of a primvar where lines of constant u meet lines of constant v, as
+    /// [`Surface::eval_grid`].
+    pub(crate) fn primvar_grid(
+        &self,
+        primvar: usize,
+        quad: QuadId,
+        us: &[f64],
+        vs: &[f64],
+    ) -> Option<Vec<[f64; 4]>> {
+        let all = |surface: &dyn GridOfValues| surface.values(quad, us, vs);
+        match self.channel(primvar)? {
+            Channel::Linear => {
+                let places = vs.iter().flat_map(|&v| us.iter().map(move |&u| [u, v]));
+                places.map(|at| Some(self.eval_linear(primvar, quad, at)?.p)).collect()
+            }
+            Channel::Smooth1(surface) => Some(all(surface)),
+            Channel::Smooth2(surface) => Some(all(surface)),
+            Channel::Smooth3(surface) => Some(all(surface)),
+            Channel::Smooth4(surface) => Some(all(surface)),
+            Channel::None => None,
+        }
+    }
+
+    fn eval_linear<const N: usize>(
+        &self,
+        primvar: usize,
+        quad: QuadId,
+        [u, v]: [f64; 2],
+    ) -> Option<Jet<N>> {
+        let (face, corner) = self.face_of(quad)?;
+        if u.is_nan() || v.is_nan() || self.is_omitted(face) {
             return None;
         }
         let (u, v) = (u.clamp(0.0, 1.0), v.clamp(0.0, 1.0));
-        if self.is_omitted(self.face_of(quad).0) {
-            return None;
-        }
-        let channel = self.channels[primvar].get_or_init(|| Channel::new(self, of_cage));
-        let surfaces = match channel {
-            Channel::Linear => return Some(self.eval_linear(of_cage, quad, u, v)),
-            Channel::Smooth(surfaces) => surfaces,
-        };
-        let mut jet = PrimvarJet::default();
-        for (part, surface) in surfaces.iter().enumerate() {
-            jet.put(3 * part, &surface.as_ref()?.eval(quad, u, v)?.jet);
-        }
-        Some(jet)
-    }
-
-    fn eval_linear(&self, primvar: &Primvar, quad: QuadId, u: f64, v: f64) -> PrimvarJet {
-        let (face, corner) = self.face_of(quad);
-        let faces = self.cage.topology().faces();
+        let (primvar, faces) = (self.primvars.get(primvar)?, self.topology().faces());
         let range = faces.corner_range(face);
         let size = range.len();
-        let number = |k: usize| match primvar.interpolation {
-            Interpolation::FaceVarying => primvar.indices[range.start + k % size] as usize,
-            _ => faces.corners(face)[k % size].index(),
-        };
-        let value = |k: usize| {
-            let numbers = &primvar.values[number(k) * primvar.width..][..primvar.width];
-            [0, 1, 2, 3].map(|i| numbers.get(i).copied().unwrap_or(0.0))
+        let value = |k: usize| -> [f64; N] {
+            let number = match primvar.interpolation {
+                Interpolation::FaceVarying => primvar.indices[range.start + k % size] as usize,
+                _ => faces.corners(face)[k % size].index(),
+            };
+            padded(primvar, number)
         };
         if size == 4 {
-            return PrimvarJet::bilinear([0, 1, 2, 3].map(value), u, v);
+            return Some(bilinear([0, 1, 2, 3].map(value), u, v));
         }
-        let mean = |a: [f64; 4], b: [f64; 4]| [0, 1, 2, 3].map(|i| 0.5 * (a[i] + b[i]));
-        let centre =
-            [0, 1, 2, 3].map(|i| (0..size).map(|k| value(k)[i]).sum::<f64>() / size as f64);
+        let mean = |a: [f64; N], b: [f64; N]| std::array::from_fn(|i| 0.5 * (a[i] + b[i]));
+        let centre: [f64; N] =
+            std::array::from_fn(|i| (0..size).map(|k| value(k)[i]).sum::<f64>() / size as f64);
         let here = value(corner);
-        let corners =
-            [here, mean(here, value(corner + 1)), centre, mean(here, value(corner + size - 1))];
-        PrimvarJet::bilinear(corners, u, v)
+        let ahead = mean(here, value(corner + 1));
+        let behind = mean(here, value(corner + size - 1));
+        Some(bilinear([here, ahead, centre, behind], u, v))
     }
 }
 
-/// Places for the channels of a cage, none of them built.
-pub(super) fn unbuilt(cage: &Cage) -> Vec<OnceLock<Channel>> {
-    cage.primvars().iter().map(|_| OnceLock::new()).collect()
+/// A surface of any width, by its values alone.
+trait GridOfValues {
+    /// The values where lines meet; numbers beyond the width are 0.
+    fn values(&self, quad: QuadId, us: &[f64], vs: &[f64]) -> Vec<[f64; 4]>;
+}
+
+impl<const N: usize> GridOfValues for Surface<N> {
+    fn values(&self, quad: QuadId, us: &[f64], vs: &[f64]) -> Vec<[f64; 4]> {
+        let mut found = vec![[f64::NAN; N]; us.len() * vs.len()];
+        self.eval_grid(quad, us, vs, &mut found);
+        let in_four = |x: &[f64; N]| std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0));
+        found.iter().map(in_four).collect()
+    }
+}
+
+/// Places for the surfaces of primvars, none of them built.
+pub(super) fn unbuilt(primvars: &[Primvar]) -> Vec<Arc<OnceLock<Channel>>> {
+    primvars.iter().map(|_| Arc::default()).collect()
 }

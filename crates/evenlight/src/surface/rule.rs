@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::{CreaseRings, SurfaceOptions};
 use crate::mesh::isolation::{Extraordinary, Place};
-use crate::mesh::{Cage, VertexRule};
+use crate::mesh::{Topology, VertexRule};
 use crate::scheme::{SchemeKind, is_fair};
 
 /// The rule of an extraordinary point.
@@ -34,13 +34,13 @@ pub enum Reason {
 }
 
 impl PointRule {
-    /// The rule of a point of `cage`.
-    pub fn of(cage: &Cage, point: &Extraordinary, options: SurfaceOptions) -> Self {
+    /// The rule of a point of a cage with this topology.
+    pub fn of(topology: &Topology, point: &Extraordinary, options: SurfaceOptions) -> Self {
         if point.fan.is_smooth() {
             let has_rules = options.scheme.has_rules(options.variant(), point.valence);
             return if has_rules { Self::Scheme } else { Self::CatmullClark(Reason::Valence) };
         }
-        let on_boundary = matches!(point.place, Place::Vertex(v) if cage.topology().is_boundary(v));
+        let on_boundary = matches!(point.place, Place::Vertex(v) if topology.is_boundary(v));
         let reason = match point.fan.rule {
             _ if on_boundary => Reason::Boundary,
             VertexRule::Corner => Reason::Corner,

@@ -1,9 +1,9 @@
 //! Values of primvars at the corners of triangles.
 
 use super::{QuadTriangles, TriangleMesh};
-use crate::mesh::Primvar;
-use crate::parallel::map_indexed;
+use crate::mesh::{FaceId, HalfEdgeId, Interpolation, Primvar, Topology};
 use crate::surface::Surface;
+use crate::task::map_indexed;
 
 /// Values and which of them each corner of each triangle has.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,10 +28,6 @@ pub struct CornerChannels {
     pub color: Option<CornerValues>,
 }
 
-/// Values at a vertex from two quads are one value if they differ by less than this part of the
-/// largest number of the channel: over a seam they differ visibly, else by rounding.
-const SAME: f64 = 1e-9;
-
 /// No value yet.
 const NONE: u32 = u32::MAX;
 
@@ -44,12 +40,13 @@ impl TriangleMesh {
         /// Quads whose values are held at a time, all those of their grids.
         const SLICE: usize = 256;
         let channel = surface.primvars().get(primvar)?;
-        let mut found = Collector::new(channel, self.positions.len());
+        let seams = Seams { topology: surface.topology(), primvar: channel };
+        let mut found = Collector::new(seams, self.positions.len());
         found.corners.reserve_exact(self.triangles.len());
         for slice in self.quads.chunks(SLICE) {
             let grids = map_indexed(slice.len(), |k| grid_values(surface, primvar, slice[k]));
             for (&quad, grid) in slice.iter().zip(grids) {
-                found.add(self, quad, &grid?)?;
+                found.add(self, surface.face_of(quad.quad)?, quad, &grid?)?;
             }
         }
         let Collector { values, corners, .. } = found;
@@ -92,38 +89,102 @@ impl CornerValues {
 /// The values of a primvar at the nodes of a quad's grid, row by row.
 fn grid_values(surface: &Surface, primvar: usize, quad: QuadTriangles) -> Option<Vec<[f64; 4]>> {
     let m = quad.segments;
-    let parameter = |k: u32| f64::from(k) / f64::from(m);
-    let nodes = (0..=m).flat_map(|j| (0..=m).map(move |i| (i, j)));
-    let value = |(i, j)| surface.eval_primvar(primvar, quad.quad, parameter(i), parameter(j));
-    nodes.map(|node| value(node).map(|jet| jet.value)).collect()
+    let lines: Vec<f64> = (0..=m).map(|k| f64::from(k) / f64::from(m)).collect();
+    surface.primvar_grid(primvar, quad.quad, &lines, &lines)
+}
+
+/// Where a primvar is not continuous: topology knows, however near values are to each other.
+struct Seams<'a> {
+    topology: &'a Topology,
+    primvar: &'a Primvar,
+}
+
+/// Which of the values at a vertex is meant: those seen from two faces are one if their sides are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    /// There is one value only.
+    All,
+    /// At a vertex of the cage the value with this number.
+    Value(u32),
+    /// Inside a seam that of a face.
+    Face(FaceId),
+}
+
+impl Seams<'_> {
+    /// The side of node (i, j) of a grid of m segments on the quad at `corner` of `face`.
+    fn side(&self, (face, corner): (FaceId, usize), m: usize, (i, j): (usize, usize)) -> Side {
+        if self.primvar.interpolation != Interpolation::FaceVarying {
+            return Side::All;
+        }
+        let size = self.topology.faces().corners(face).len();
+        let at = |k: usize| self.topology.half_edge(face, k % size);
+        let (first, last) = if size == 4 { (0, 3) } else { (corner, corner + size - 1) };
+        let whole = size == 4;
+        match (i, j) {
+            (0, 0) => self.at_corner(at(first)),
+            (i, 0) if whole && i == m => self.at_corner(at(1)),
+            (0, j) if whole && j == m => self.at_corner(at(3)),
+            (i, j) if whole && i == m && j == m => self.at_corner(at(2)),
+            (_, 0) => self.on_edge(at(first)),
+            (0, _) => self.on_edge(at(last)),
+            (i, _) if whole && i == m => self.on_edge(at(1)),
+            (_, j) if whole && j == m => self.on_edge(at(2)),
+            _ => Side::All,
+        }
+    }
+
+    fn at_corner(&self, h: HalfEdgeId) -> Side {
+        Side::Value(self.value(h))
+    }
+
+    fn on_edge(&self, h: HalfEdgeId) -> Side {
+        let Some(twin) = self.topology.twin(h) else { return Side::All };
+        let next = |h| self.topology.next(h);
+        let is_seam =
+            self.value(h) != self.value(next(twin)) || self.value(next(h)) != self.value(twin);
+        if is_seam { Side::Face(self.topology.face(h)) } else { Side::All }
+    }
+
+    /// The number of the value at the corner that `h` leaves.
+    fn value(&self, h: HalfEdgeId) -> u32 {
+        self.primvar.indices[h.index()]
+    }
 }
 
 /// Gathers values, quad by quad.
-struct Collector {
+struct Collector<'a> {
+    seams: Seams<'a>,
     values: Vec<[f64; 4]>,
+    /// The side of every value.
+    sides: Vec<Side>,
     corners: Vec<[u32; 3]>,
-    /// How far values may differ to be one.
-    tolerance: f64,
     /// The first value of every vertex.
     first: Vec<u32>,
     /// For every value the next one of the same vertex.
     next: Vec<u32>,
 }
 
-impl Collector {
-    fn new(channel: &Primvar, num_vertices: usize) -> Self {
-        let largest = channel.values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+impl<'a> Collector<'a> {
+    fn new(seams: Seams<'a>, num_vertices: usize) -> Self {
         Self {
+            seams,
             values: Vec::new(),
+            sides: Vec::new(),
             corners: Vec::new(),
-            tolerance: SAME * largest,
             first: vec![NONE; num_vertices],
             next: Vec::new(),
         }
     }
 
-    /// Adds the triangles of `quad`, on whose grid the channel has the values `grid`.
-    fn add(&mut self, mesh: &TriangleMesh, quad: QuadTriangles, grid: &[[f64; 4]]) -> Option<()> {
+    /// Adds the triangles of `quad`, at a corner of a face, on whose grid the primvar has the values
+    /// `grid`.
+    fn add(
+        &mut self,
+        mesh: &TriangleMesh,
+        place: (FaceId, usize),
+        quad: QuadTriangles,
+        grid: &[[f64; 4]],
+    ) -> Option<()> {
         let m = quad.segments as usize;
         let mut numbers = vec![NONE; grid.len()];
         for triangle in quad.first..quad.first + 2 * m * m {
@@ -133,7 +194,8 @@ impl Collector {
             for ((corner, &vertex), (i, j)) in corners.iter_mut().zip(vertices).zip(nodes) {
                 let node = i + j * (m + 1);
                 if numbers[node] == NONE {
-                    numbers[node] = self.number(vertex, grid[node]);
+                    let side = self.seams.side(place, m, (i, j));
+                    numbers[node] = self.number(vertex, side, grid[node]);
                 }
                 *corner = numbers[node];
             }
@@ -142,19 +204,19 @@ impl Collector {
         Some(())
     }
 
-    /// The number of `value` at `vertex`, which is added unless it is there.
-    fn number(&mut self, vertex: u32, value: [f64; 4]) -> u32 {
+    /// The number of the value on a side of `vertex`, which is added unless it is there.
+    fn number(&mut self, vertex: u32, side: Side, value: [f64; 4]) -> u32 {
         let first = self.first[vertex as usize];
         let mut seen = first;
         while seen != NONE {
-            let other = self.values[seen as usize];
-            if value.iter().zip(other).all(|(a, b)| (a - b).abs() <= self.tolerance) {
+            if self.sides[seen as usize] == side {
                 return seen;
             }
             seen = self.next[seen as usize];
         }
         let number = self.values.len() as u32;
         self.values.push(value);
+        self.sides.push(side);
         self.next.push(first);
         self.first[vertex as usize] = number;
         number

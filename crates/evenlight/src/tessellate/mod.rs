@@ -49,6 +49,7 @@ use std::collections::BTreeMap;
 use crate::patch::{FirstJet, SurfacePoint};
 use crate::point::{Point, Vector, add, cross, dot, norm, sub, unit};
 use crate::surface::{QuadId, Surface};
+use crate::task::{Cancelled, Steps};
 use nodes::{Grid, Nodes};
 use samples::samples;
 use sides::Sides;
@@ -130,6 +131,15 @@ pub enum TessellateError {
         /// The rate, after rounding.
         rate: usize,
     },
+    /// Who watches the work stopped it ([`Task::watch`](crate::task::Task::watch)).
+    #[error("the work was cancelled")]
+    Cancelled,
+}
+
+impl From<Cancelled> for TessellateError {
+    fn from(Cancelled: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }
 
 /// Cuts the surface into triangles, with `rate` segments along every edge of the cage.
@@ -149,14 +159,13 @@ pub enum TessellateError {
 /// If `rate` is 0, or if there would be 2^32 - 1 vertices or more. Running out of memory is
 /// not an error that is reported.
 pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, TessellateError> {
-    let nodes = Nodes::number(surface.cage().topology(), rate_used(surface, rate)?, |f| {
-        !surface.is_omitted(f)
-    })?;
+    let nodes =
+        Nodes::number(surface.topology(), rate_used(surface, rate)?, |f| !surface.is_omitted(f))?;
     let sides = Sides::number(surface, &nodes)?;
     let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
     mesh.side_vertices = sides.nodes().to_vec();
     mesh.origins = origins(surface, &nodes, &sides);
-    mesh.evaluate(surface);
+    mesh.evaluate(surface)?;
     mesh.fill_what_is_missing(surface, &nodes, &sides);
     mesh.triangulate(surface, &nodes, &sides);
     Ok(mesh)
@@ -164,7 +173,7 @@ pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, Tessel
 
 /// The rate rounded up to what the n-gons need.
 fn rate_used(surface: &Surface, rate: usize) -> Result<usize, TessellateError> {
-    let faces = surface.cage().topology().faces();
+    let faces = surface.topology().faces();
     let has_ngon = || faces.ids().any(|f| faces.corners(f).len() != 4 && !surface.is_omitted(f));
     match rate {
         0 => Err(TessellateError::ZeroRate),
@@ -206,7 +215,7 @@ fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> 
     /// Sines of angles that files with seven digits leave of a straight one, and more.
     const STRAIGHT: f64 = 1e-4;
     let Some(corner) = grid.corner_of_face(i, j) else { return false };
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let h = topology.half_edge(grid.face, corner);
     if ![h, topology.previous(h)].into_iter().all(|h| surface.is_infinitely_sharp(h)) {
         return false;
@@ -218,13 +227,14 @@ fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> 
 
 impl TriangleMesh {
     /// Computes all sides, and vertices on their first, a slice at a time.
-    fn evaluate(&mut self, surface: &Surface) {
+    fn evaluate(&mut self, surface: &Surface) -> Result<(), Cancelled> {
         const SLICE: usize = 1 << 16;
         let num_vertices = self.origins.len() - self.side_vertices.len();
         self.positions.reserve_exact(num_vertices);
         self.normals.reserve_exact(self.origins.len());
         self.gauss.reserve_exact(self.origins.len());
         self.mean.reserve_exact(self.origins.len());
+        let mut steps = Steps::new("Evaluating vertices", self.origins.len().div_ceil(SLICE))?;
         for slice in self.origins.chunks(SLICE) {
             for points in samples(surface, self.rate, slice) {
                 let missing = num_vertices - self.positions.len();
@@ -233,7 +243,9 @@ impl TriangleMesh {
                 self.gauss.extend(points.iter().map(|p| p.gauss));
                 self.mean.extend(points.iter().map(|p| p.mean));
             }
+            steps.step()?;
         }
+        Ok(())
     }
 
     /// Gives extraordinary points and other corners of quads the curvature and the normal that they

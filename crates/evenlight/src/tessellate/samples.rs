@@ -1,10 +1,10 @@
 //! What the surface says at the vertices: grids of whole quads at once.
 
 use super::VertexOrigin;
-use crate::parallel::map_indexed;
 use crate::patch::{Answer, Jet, Parts, Shape};
 use crate::point::{Point, Vector};
 use crate::surface::Surface;
+use crate::task::map_indexed;
 
 /// What a mesh keeps of the surface.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ fn add_samples_of_quad(
     samples: &mut Vec<Sample>,
 ) {
     let quad = run[0].quad;
-    let corners = surface.cage().topology().faces().corners(surface.face_of(quad).0);
+    let corners = surface.topology().faces().corners(surface.layout().face_of_quad(quad).0);
     let segments = if corners.len() == 4 { rate } else { rate / 2 } as f64;
     // The parameters are whole numbers divided by that of the segments.
     let node = |origin: &VertexOrigin| origin.uv.map(|x| (segments * x + 0.5) as usize);

@@ -64,7 +64,7 @@ impl Sides {
         if most.saturating_add(nodes.len() as u64) >= u64::from(u32::MAX) {
             return Err(TessellateError::TooManyVertices { rate: nodes.rate() });
         }
-        let topology = surface.cage().topology();
+        let topology = surface.topology();
         for v in ends(topology, &folds) {
             sides.split_vertex(surface, nodes, v);
         }
@@ -110,14 +110,14 @@ impl Sides {
 
 /// The infinitely sharp edges inside the cage, as the lower of their half-edges, in order.
 fn folds(surface: &Surface) -> Vec<HalfEdgeId> {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let is_first = |h: &HalfEdgeId| topology.twin(*h).is_some_and(|twin| *h < twin);
     topology.half_edges().filter(|h| is_first(h) && surface.is_infinitely_sharp(*h)).collect()
 }
 
 /// Whether there is a surface on both sides of the edge of `h`.
 fn has_two_sides(surface: &Surface, h: HalfEdgeId) -> bool {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let mut sides = [Some(h), topology.twin(h)].into_iter();
     sides.all(|h| h.is_some_and(|h| !surface.is_omitted(topology.face(h))))
 }
@@ -134,7 +134,7 @@ fn ends(topology: &Topology, edges: &[HalfEdgeId]) -> Vec<VertexId> {
 /// The faces around `v` between one infinitely sharp edge and the next, those that have a surface.
 /// Omitted faces separate nothing: the surface goes on under them.
 fn fans(surface: &Surface, v: VertexId) -> Vec<Vec<FaceId>> {
-    let topology = surface.cage().topology();
+    let topology = surface.topology();
     let mut ring: Vec<HalfEdgeId> = topology.ring(v).collect();
     let first = ring.iter().position(|&h| surface.is_infinitely_sharp(h));
     ring.rotate_left(first.unwrap_or(0));

@@ -26,8 +26,8 @@ use std::sync::OnceLock;
 
 use super::{FanLimit, Net as CoarseNet, Tangents};
 use crate::dense::Matrix;
-use crate::mesh::{Fan, VertexRule};
-use crate::scheme::rules::{Row, Rules};
+use crate::net::{Fan, VertexRule};
+use crate::scheme::rules::{Row, Rules, Symmetry};
 use crate::scheme::subdominant::Subdominant;
 use energy::{Polar, RingChart, RingForms};
 use net::{Net, SPLINE_NODES};
@@ -79,6 +79,7 @@ impl FairFan {
         let patches = (0..shape.faces as isize).flat_map(|s| (0..12).map(move |k| net.patch(s, k)));
         let rules = Rules {
             valence: shape.faces,
+            symmetry: Symmetry::None,
             nodes_per_sector: n,
             refine: (0..n).map(|k| sparse(step.row(k))).collect(),
             degree: 3,

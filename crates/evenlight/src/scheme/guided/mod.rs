@@ -34,7 +34,7 @@ mod sampling;
 mod segment;
 
 use super::contraction::Contraction;
-use super::rules::{Cuts, GuidePart, PatchRule, Row, Rules};
+use super::rules::{Cuts, GuidePart, PatchRule, Row, Rules, Symmetry};
 use crate::net::{CNET_NODES, cnet_node};
 pub(super) use model::LAST_VALENCE;
 use model::Model;
@@ -61,6 +61,7 @@ pub(super) fn rules(n: usize, degree: usize, contraction: Contraction) -> Option
     let cuts = (model.sigma != 0.5).then(|| ring.cuts());
     Some(Rules {
         valence: n,
+        symmetry: Symmetry::Turning,
         nodes_per_sector: ring.num_nodes(),
         refine: ring.refine(model.lambda),
         degree,

@@ -12,6 +12,7 @@
 use super::net::{Net, PATCHES};
 use crate::angle::{cosine, sine};
 use crate::dense::Matrix;
+use crate::quadrature::GAUSS_4;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Power series in (u,v) up to the third order, in the order of [`EXPONENTS`].
@@ -19,14 +20,6 @@ type Series = [f64; 10];
 
 const EXPONENTS: [[usize; 2]; 10] =
     [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2], [3, 0], [2, 1], [1, 2], [0, 3]];
-
-/// The Gauss points of [0,1] and their weights.
-const GAUSS: [[f64; 2]; 4] = [
-    [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
-    [0.330_009_478_207_571_87, 0.326_072_577_431_273_07],
-    [0.669_990_521_792_428_1, 0.326_072_577_431_273_07],
-    [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
-];
 
 /// The series of x and y over a patch of a sector at (u,v).
 pub(super) trait Chart {
@@ -246,8 +239,8 @@ impl PatchForms {
             with_xy: none,
             area: 0.0,
         };
-        for [u, wu] in GAUSS {
-            for [v, wv] in GAUSS {
+        for (u, wu) in GAUSS_4 {
+            for (v, wv) in GAUSS_4 {
                 forms.add_point([u, v], wu * wv, chart([u, v]));
             }
         }

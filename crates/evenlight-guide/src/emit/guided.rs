@@ -1,9 +1,9 @@
 //! The table of guided subdivision: the generating matrix and the map of the cap, in integers.
 //!
 //! What a library needs of a valence and cannot compute in a moment is the fit of the guide
-//! ([`super::fit`]) and the choice of the cap's map ([`super::cap`]). All else, the characteristic
-//! ring and the tables of rings and cap, follows from the cosine of the turn by `+ - * /` and
-//! square roots ([`super::characteristic`], [`super::rings`]).
+//! ([`crate::guided::fit`]) and the choice of the cap's map ([`crate::guided::cap`]). All else, the
+//! characteristic ring and the tables of rings and cap, follows from the cosine of the turn by
+//! `+ - * /` and square roots ([`crate::guided::characteristic`], [`crate::guided::rings`]).
 //!
 //! The weights are numerators over 10^18. The mirrors make, for the coefficients of sector 0,
 //!
@@ -18,13 +18,13 @@
 use std::fmt::{self, Write};
 use std::ops::Range;
 
-use crate::emit::{DENOMINATOR, TableDefect, TableFile};
+use super::{DENOMINATOR, TableDefect, TableFile};
 use crate::guided::cap::{self, cap_map};
 use crate::guided::characteristic::CharacteristicRing;
-use crate::guided::fit::{generating_matrix, symmetrised};
+use crate::guided::fit::generating_matrix;
 use crate::guided::net::{CNet, NODES_PER_SECTOR};
-use crate::guided::space::{COEFS, DEGREE};
-use crate::linear::Matrix;
+use crate::guided::space::DEGREE;
+use crate::guided::symmetry::{mirrored_in_line, number, symmetric_rows};
 use crate::real::Real;
 
 /// The coefficients (i, j) that tables list, in their order.
@@ -149,41 +149,6 @@ pub(super) static TABLE: GuidedTable = GuidedTable {{
         }
         writeln!(out, "    ],\n}};")
     }
-}
-
-/// The number of the coefficient (i, j) of a piece.
-fn number(i: usize, j: usize) -> usize {
-    (DEGREE + 1) * i + j
-}
-
-/// The image of a node in line -1, the first line of sector 0.
-fn mirrored_in_line(net: CNet, node: usize) -> usize {
-    net.mirrored(net.turned(node, 1))
-}
-
-/// The rows of a generating matrix averaged with their mirror images.
-pub(crate) fn symmetric_rows(generating: &Matrix, valence: usize) -> Vec<Vec<Real>> {
-    let generating = symmetrised(generating, valence);
-    let on_line = |row: usize| row.is_multiple_of(DEGREE + 1) || row <= DEGREE;
-    let row = |row: usize| match on_line(row) {
-        true => line_row(&generating, valence, row),
-        false => generating.row(row).to_vec(),
-    };
-    (0..COEFS).map(row).collect()
-}
-
-/// The row of p_i0, or of p_0i, averaged with its mirror image in the line, which it equals up to
-/// rounding because the guide is continuous.
-fn line_row(generating: &Matrix, valence: usize, row: usize) -> Vec<Real> {
-    let net = CNet { valence };
-    let is_first_line = row.is_multiple_of(DEGREE + 1);
-    let own = if is_first_line { row } else { number(row, 0) };
-    let weight = |node: usize| {
-        let image = generating[(own, mirrored_in_line(net, node))];
-        (generating[(own, node)] + image) * Real::ratio(1, 2)
-    };
-    let seen = |node| if is_first_line { node } else { net.mirrored(node) };
-    (0..net.num_nodes()).map(|node| weight(seen(node))).collect()
 }
 
 /// Writes one row of weights, so many on a line.
