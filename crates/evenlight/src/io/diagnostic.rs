@@ -7,10 +7,10 @@
 
 use std::fmt;
 
-use super::load::{Lines, LoadError, Naming, Notice, Refusal};
+use super::load::{LoadError, Notice, Refusal};
 use super::obj::{self, Element};
 use super::ply;
-use crate::mesh::{FaceId, Marks, MeshError, Tags, VertexId};
+use crate::mesh::{FaceId, Marks, MeshError, VertexId};
 
 /// A fault of a file or its mesh, or something that was ignored or completed.
 ///
@@ -147,42 +147,5 @@ impl Notice {
             },
             Self::Remark(_) => Diagnostic::warning("remark", message),
         }
-    }
-}
-
-impl Naming {
-    /// The line on which a vertex stands, if it is known.
-    pub fn vertex_line(&self, vertex: VertexId) -> Option<u32> {
-        match self {
-            Self::Lines(source) => source.vertex_line(vertex),
-            Self::LinesFromZero(Lines { vertices, .. }) => vertices.get(vertex.index()).copied(),
-        }
-    }
-
-    /// The line on which a face begins, if it is known.
-    pub fn face_line(&self, face: FaceId) -> Option<u32> {
-        match self {
-            Self::Lines(source) => source.face_line(face),
-            Self::LinesFromZero(Lines { faces, .. }) => faces.get(face.index()).copied(),
-        }
-    }
-
-    /// The line where a fault of a mesh with `tags` is to be mended: that of the tag, or else the
-    /// first face, or else the first vertex that it is about.
-    pub(super) fn line(&self, fault: &MeshError, tags: &Tags) -> Option<u32> {
-        match (fault, self) {
-            (
-                MeshError::UnknownTag { what } | MeshError::Sharpness { what, .. },
-                Self::Lines(source),
-            ) => source.tag_line(*what, tags),
-            (MeshError::UnknownTag { .. } | MeshError::Sharpness { .. }, _) => None,
-            _ => self.line_of(&fault.marks()),
-        }
-    }
-
-    /// The line of the first face among `marks`, or else of the first vertex.
-    pub(super) fn line_of(&self, marks: &Marks) -> Option<u32> {
-        let face = marks.faces.first().and_then(|face| self.face_line(*face));
-        face.or_else(|| marks.vertices.first().and_then(|vertex| self.vertex_line(*vertex)))
     }
 }

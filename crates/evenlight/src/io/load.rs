@@ -15,7 +15,9 @@ use std::path::Path;
 use super::kind::Kind;
 use super::obj::{self, Skipped, UnknownTag};
 use super::{ply, usd};
-use crate::mesh::{Cage, CheckError, FaceId, Mesh, Names, VertexId, Warning};
+use crate::mesh::{
+    Cage, CheckError, FaceId, Marks, Mesh, MeshError, Names, Tags, VertexId, Warning,
+};
 
 /// The kinds of files that hold cages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,6 +164,43 @@ impl Names for Lines {
 
 fn numbered(id: u32, line: Option<&u32>) -> String {
     line.map_or_else(|| id.to_string(), |line| format!("{id} (line {line})"))
+}
+
+impl Naming {
+    /// The line on which a vertex stands, if it is known.
+    pub fn vertex_line(&self, vertex: VertexId) -> Option<u32> {
+        match self {
+            Self::Lines(source) => source.vertex_line(vertex),
+            Self::LinesFromZero(Lines { vertices, .. }) => vertices.get(vertex.index()).copied(),
+        }
+    }
+
+    /// The line on which a face begins, if it is known.
+    pub fn face_line(&self, face: FaceId) -> Option<u32> {
+        match self {
+            Self::Lines(source) => source.face_line(face),
+            Self::LinesFromZero(Lines { faces, .. }) => faces.get(face.index()).copied(),
+        }
+    }
+
+    /// The line where a fault of a mesh with `tags` is to be mended: that of the tag, or else the
+    /// first face, or else the first vertex that it is about.
+    fn line(&self, fault: &MeshError, tags: &Tags) -> Option<u32> {
+        match (fault, self) {
+            (
+                MeshError::UnknownTag { what } | MeshError::Sharpness { what, .. },
+                Self::Lines(source),
+            ) => source.tag_line(*what, tags),
+            (MeshError::UnknownTag { .. } | MeshError::Sharpness { .. }, _) => None,
+            _ => self.line_of(&fault.marks()),
+        }
+    }
+
+    /// The line of the first face among `marks`, or else of the first vertex.
+    fn line_of(&self, marks: &Marks) -> Option<u32> {
+        let face = marks.faces.first().and_then(|face| self.face_line(*face));
+        face.or_else(|| marks.vertices.first().and_then(|vertex| self.vertex_line(*vertex)))
+    }
 }
 
 impl Names for Naming {
