@@ -90,7 +90,7 @@ fn range_lengths(surface: &Surface) -> [f64; SHOWN_RINGS.len()] {
     let mut ranges = SHOWN_RINGS.map(|_| Range::EMPTY);
     for place in surface.patch_places(SHOWN_RINGS[SHOWN_RINGS.len() - 1]) {
         let (Some(0), Role::Ring(ring)) = (place.point, place.role) else { continue };
-        if let Some(k) = SHOWN_RINGS.iter().position(|&shown| shown == ring) {
+        if let Some(k) = SHOWN_RINGS.iter().position(|&shown| shown == ring + 1) {
             ranges[k] = ranges[k].union(curvature_over(surface, &place).mean);
         }
     }
@@ -147,7 +147,7 @@ fn energies(file: &std::path::Path) -> Result<Option<Energies>, Box<dyn Error>> 
     let [valence] = valences[..] else { return Ok(None) };
     let energy = |scheme, contraction| -> Result<f64, Box<dyn Error>> {
         let surface = build(&cage, scheme, contraction)?;
-        let rings = surface.patches(RINGS).filter(|patch| patch.role != Role::Regular);
+        let rings = surface.patches(RINGS).filter(|patch| patch.place.role != Role::Regular);
         Ok(rings.map(|patch| shape_energy(&patch.patch)).sum())
     };
     let mut of = [[0.0; 2]; COMPARED.len()];

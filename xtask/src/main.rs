@@ -7,6 +7,7 @@
 mod bench;
 #[cfg(feature = "library")]
 mod caps;
+mod circles;
 #[cfg(feature = "library")]
 mod creases;
 #[cfg(feature = "library")]

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use evenlight::analyse::curvature::{Range, RingCurvature, curvature_over};
 use evenlight::analyse::shape::{PointShape, shape};
-use evenlight::io::obj;
+use evenlight::io::load::Format;
 use evenlight::surface::Role;
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
@@ -109,7 +109,7 @@ impl Row {
 
 /// The cage of a file.
 pub fn read(path: &Path) -> Result<Arc<Cage>, Box<dyn Error>> {
-    let (cage, _) = obj::read_cage(&std::fs::read(path)?)?;
+    let (cage, _) = Format::Obj.read_cage(&std::fs::read(path)?)?;
     Ok(Arc::new(cage))
 }
 
@@ -328,7 +328,7 @@ fn ring_lengths(surface: &Surface, rings: &[usize]) -> Vec<[f64; 2]> {
     let mut found = vec![vec![empty; points]; rings.len()];
     for place in surface.patch_places(last) {
         let (Some(point), Role::Ring(ring)) = (place.point, place.role) else { continue };
-        if let Some(k) = rings.iter().position(|&shown| shown == ring) {
+        if let Some(k) = rings.iter().position(|&shown| shown == ring + 1) {
             let here = curvature_over(surface, &place);
             let all = &mut found[k][point];
             (all.mean, all.gauss) = (all.mean.union(here.mean), all.gauss.union(here.gauss));

@@ -15,9 +15,9 @@ use evenlight::{FaceId, QuadId, Surface, SurfacePoint};
 use crate::cap::CapRingsArg;
 use crate::error::Failure;
 use crate::input::{self, Source, WHY_OMITTED};
-use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::SurfaceArgs;
 
 /// Arguments of `evenlight eval`.
 #[derive(Args, Debug)]
@@ -101,7 +101,7 @@ fn answers(surface: &Surface, rows: &[Row], quads: &[QuadId]) -> Vec<SurfacePoin
     let places: Vec<_> = rows.iter().zip(quads).map(|(row, &quad)| (quad, row.u, row.v)).collect();
     // Rows on omitted faces were refused: there is an answer everywhere.
     let mut answers = vec![SurfacePoint::NAN; rows.len()];
-    surface.eval_each(&places, &mut answers);
+    surface.eval_each(&places, &mut answers).expect("there is an answer for every place");
     answers
 }
 

@@ -6,9 +6,9 @@ use evenlight::{Surface, io};
 
 use crate::cap::CapRingsArg;
 use crate::error::{Failure, warn};
-use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::SurfaceArgs;
 
 /// Arguments of `evenlight mesh`.
 #[derive(Args, Debug)]
@@ -19,8 +19,8 @@ pub struct MeshArgs {
     #[command(flatten)]
     caps: CapRingsArg,
 
-    /// The file to write: .obj with normals, .ply or .glb with normals and curvature, these with the
-    /// texture coordinates and colours of the cage, or .stl; `-` for stdout
+    /// The file to write: .obj with normals, .ply or .glb with normals and curvature, these with
+    /// the texture coordinates and colours of the cage, or .stl; `-` for stdout
     #[arg(short, long, value_name = "FILE")]
     output: Target,
 

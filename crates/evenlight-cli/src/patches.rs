@@ -5,9 +5,9 @@ use evenlight::{Surface, io};
 
 use crate::cap::CapArg;
 use crate::error::Failure;
-use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::SurfaceArgs;
 
 /// Arguments of `evenlight patches`.
 #[derive(Args, Debug)]

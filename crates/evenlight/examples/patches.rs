@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn count(surface: &Surface) {
     let mut counts = BTreeMap::new();
     for placed in surface.patches(RINGS) {
-        let kind = (format!("{:?}", placed.role), placed.patch.degree());
+        let kind = (placed.place.role.to_string(), placed.patch.degree());
         *counts.entry(kind).or_insert(0) += 1;
     }
     for ((role, [du, dv]), count) in counts {

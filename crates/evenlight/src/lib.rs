@@ -42,7 +42,7 @@
 //!
 //! let triangles = tessellate(&surface, 8)?;
 //! assert_eq!(triangles.triangles.len(), 6 * 8 * 8 * 2);
-//! let report = curvature_report(&surface, 6);
+//! let report = curvature_report(&surface, 6)?;
 //! assert!(report.jumps.parametric < 1e-11, "all patches join C2");
 //!
 //! // Write a file: triangles in the format that the ending of its name tells, or patches.
@@ -69,6 +69,8 @@
 //! | [`cap`] | finitely many patches instead of all further rings |
 //! | [`basis`] | eigenfunctions and refinable functions of guided subdivision |
 //! | [`surface`] | the whole surface |
+//! | [`stencil`] | the surface as weights of the cage's vertices |
+//! | [`complex`] | its patches, and the edges and vertices where they meet |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
 //! | [`io`] | OBJ, PLY, USD, glTF, STL, BezierView |
@@ -94,16 +96,18 @@
 //! # What is not promised
 //!
 //! At boundaries, infinitely sharp creases and corners every scheme is Catmull-Clark. A surface may
-//! intersect itself if its cage does.
-//! Coordinates near the ends of the range of `f64` may overflow in derivatives.
+//! intersect itself if its cage does. Coordinates near the ends of the range of `f64` may overflow
+//! in derivatives.
 
 pub mod analyse;
 mod angle;
 pub mod basis;
 pub mod cap;
+pub mod complex;
 mod dense;
 pub mod io;
 pub mod mesh;
+mod names;
 pub mod net;
 pub mod patch;
 #[cfg(feature = "picture")]
@@ -112,11 +116,14 @@ pub mod point;
 mod quadrature;
 pub mod rings;
 pub mod scheme;
+mod sparse;
+pub mod stencil;
 pub mod surface;
 pub mod task;
 pub mod tessellate;
 
 pub use mesh::{Cage, FaceId, Mesh, VertexId};
+pub use names::UnknownName;
 pub use patch::SurfacePoint;
 pub use point::{Point, Vector};
 pub use scheme::{Contraction, RuleSet, SchemeKind, Variant};

@@ -89,7 +89,7 @@ fn each<A: Answer>(
     rows: impl Fn(&A) -> Vec<Point>,
 ) -> Vec<u64> {
     let mut answers = vec![A::NAN; places.len()];
-    surface.eval_each(places, &mut answers);
+    surface.eval_each(places, &mut answers).unwrap();
     bits(&answers.iter().flat_map(rows).collect::<Vec<_>>())
 }
 
@@ -155,9 +155,9 @@ fn grids_are_each_place_alone() {
     for surface in surfaces() {
         let mut grid = vec![SurfacePoint::NAN; us.len() * vs.len()];
         for quad in (0..=surface.num_quads() as u32).map(QuadId) {
-            surface.eval_grid(quad, &us, &vs, &mut grid);
+            surface.eval_grid(quad, &us, &vs, &mut grid).unwrap();
             for (k, found) in grid.iter().enumerate() {
-                let (u, v) = (us[k % us.len()], vs[k / us.len()]);
+                let (u, v) = (us[k / vs.len()], vs[k % vs.len()]);
                 let alone = surface.eval(quad, u, v).unwrap_or(SurfacePoint::NAN);
                 assert_eq!(bits(&found.jet.rows()), bits(&alone.jet.rows()), "{quad:?} {u} {v}");
                 let rest = |p: &SurfacePoint| bits(&[p.normal, [p.gauss, p.mean, 0.0]]);

@@ -22,7 +22,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use evenlight::cap::CapOptions;
-use evenlight::io::obj;
+use evenlight::io::load::Format;
 use evenlight::surface::CreaseRings;
 use evenlight::{Cage, QuadId, RuleSet, SchemeKind, Surface, SurfaceOptions, SurfacePoint};
 
@@ -87,7 +87,7 @@ fn all_schemes_have_the_golden_bits() {
 fn found() -> String {
     let mut text = String::new();
     let cages = CAGES.map(|(name, text)| {
-        let (cage, _) = obj::read_cage(text.as_bytes()).unwrap();
+        let (cage, _) = Format::Obj.read_cage(text.as_bytes()).unwrap();
         (name, Arc::new(cage))
     });
     for (kind, options, caps) in kinds() {

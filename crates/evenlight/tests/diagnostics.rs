@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use evenlight::io::load::Format;
-use evenlight::io::{Diagnostic, FileError, Severity, obj, read_cage};
+use evenlight::io::{Diagnostic, FileError, Severity, read_cage};
 use evenlight::mesh::Marks;
 use evenlight::{FaceId, VertexId};
 
@@ -12,7 +12,7 @@ use evenlight::{FaceId, VertexId};
 const VERTICES: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 fn faults(text: &str) -> Vec<Diagnostic> {
-    obj::read_cage(text.as_bytes()).unwrap_err().diagnostics()
+    Format::Obj.read_cage(text.as_bytes()).unwrap_err().diagnostics()
 }
 
 fn of(vertices: &[u32], edges: &[[u32; 2]], faces: &[u32]) -> Marks {
@@ -95,7 +95,7 @@ fn meshes_of_text_files_that_count_from_zero_have_lines_too() {
 #[test]
 fn notices_are_data_too() {
     let text = format!("v 9 9 9\n{VERTICES}g part\nwarp 1\nf 2 3 4 5\n");
-    let (_, notices) = obj::read_cage(text.as_bytes()).unwrap();
+    let (_, notices) = Format::Obj.read_cage(text.as_bytes()).unwrap();
     let found: Vec<Diagnostic> = notices.iter().map(|notice| notice.diagnostic()).collect();
     let kinds: Vec<_> = found.iter().map(|notice| (notice.kind, notice.line)).collect();
     assert_eq!(

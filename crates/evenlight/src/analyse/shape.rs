@@ -128,12 +128,12 @@ fn over_patches(surface: &Surface, places: &[PatchPlace], rings: usize) -> (Ring
     let mut energy = 0.0;
     for place in places {
         let Role::Ring(ring) = place.role else { continue };
-        if ring <= rings {
+        if ring < rings {
             let found = curvature_over(surface, place);
             curvature.gauss = curvature.gauss.union(found.gauss);
             curvature.mean = curvature.mean.union(found.mean);
         }
-        if ring <= ENERGY_RINGS {
+        if ring < ENERGY_RINGS {
             energy += shape_energy(&surface.patch_at(place));
         }
     }

@@ -16,13 +16,12 @@ mod guide;
 mod layout;
 mod scalar;
 mod space;
-mod sparse;
 
+pub use crate::sparse::Stencils;
 pub use eigen::Eigenfunctions;
 pub use guide::{HomogeneousGuide, MAX_TOTAL_DEGREE, Parity, multiplicity};
 pub use scalar::ScalarJet;
 pub use space::{Element, FunctionKind, RefinableSpace, Support};
-pub use sparse::SparseMatrix;
 
 /// The examples of the chapter are tested.
 #[cfg(doctest)]

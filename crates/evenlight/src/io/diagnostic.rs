@@ -71,9 +71,9 @@ impl LoadError {
     ///
     /// ```
     /// use evenlight::FaceId;
-    /// use evenlight::io::obj;
+    /// use evenlight::io::load::Format;
     ///
-    /// let error = obj::read_cage(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n").unwrap_err();
+    /// let error = Format::Obj.read_cage(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n").unwrap_err();
     /// let fault = &error.diagnostics()[0];
     /// assert_eq!((fault.kind, fault.line), ("repeated-vertex", Some(4)));
     /// assert_eq!(fault.marks.faces, [FaceId(0)]);

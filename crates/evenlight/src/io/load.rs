@@ -10,72 +10,18 @@
 //! faces is what the file calls them: [`Naming`].
 
 use std::fmt;
-use std::path::Path;
 
-use super::kind::Kind;
-use super::obj::{self, Skipped, UnknownTag};
-use super::{ply, usd};
+pub use super::kind::Format;
+pub use super::lines::Lines;
+
+use super::obj::{self, Obj, Skipped, UnknownTag};
+use super::ply::{self, Ply};
+use super::usd::{self, Usd};
 use crate::mesh::{
     Cage, CheckError, FaceId, Marks, Mesh, MeshError, Names, Tags, VertexId, Warning,
 };
 
-/// The kinds of files that hold cages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Wavefront OBJ.
-    Obj,
-    /// PLY, ascii or binary.
-    Ply,
-    /// USD as text.
-    Usda,
-}
-
 impl Format {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Obj, Self::Ply, Self::Usda];
-
-    /// Its name, as in messages.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Obj => "OBJ",
-            Self::Ply => "PLY",
-            Self::Usda => "USD",
-        }
-    }
-
-    /// How the names of such files end.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Obj => ".obj",
-            Self::Ply => ".ply",
-            Self::Usda => ".usda",
-        }
-    }
-
-    /// The kind of file that ends in `.extension`, in small or capital letters.
-    pub fn from_extension(extension: &str) -> Option<Self> {
-        match extension.to_ascii_lowercase().as_str() {
-            "obj" => Some(Self::Obj),
-            "ply" => Some(Self::Ply),
-            // The reader says what to do with binary files.
-            "usda" | "usd" | "usdc" | "usdz" => Some(Self::Usda),
-            _ => None,
-        }
-    }
-
-    /// The kind of file that the ending of its name tells, if it does.
-    pub fn from_path(path: impl AsRef<Path>) -> Option<Self> {
-        Self::from_extension(path.as_ref().extension()?.to_str()?)
-    }
-
-    /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.
-    pub fn of_content(bytes: &[u8]) -> Self {
-        match Kind::of(bytes) {
-            Some(Kind::Cage(format)) => format,
-            Some(Kind::Other(_)) | None => Self::Obj,
-        }
-    }
-
     /// Reads `bytes` as a file of this kind; of USD the mesh at the path `prim`, or the only one.
     ///
     /// # Errors
@@ -96,6 +42,25 @@ impl Format {
             Self::Ply => ply::read(bytes)?.into(),
             Self::Usda => usd::read(bytes, prim)?.into(),
         })
+    }
+
+    /// Reads `bytes` as a file of this kind, of USD the only mesh, and checks the mesh; what was
+    /// ignored is told beside the cage.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Format::read`] and [`Loaded::check`]. The message names vertices and faces as the
+    /// file counts them, with their lines if it is text, and lists 20 faults at most.
+    ///
+    /// ```
+    /// use evenlight::io::load::Format;
+    ///
+    /// let error = Format::Obj.read_cage(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n").unwrap_err();
+    /// let expected = "face 1 (line 4) comes to vertex 2 (line 2) more than once: ";
+    /// assert!(error.to_string().starts_with(expected));
+    /// ```
+    pub fn read_cage(self, bytes: &[u8]) -> Result<(Cage, Vec<Notice>), LoadError> {
+        self.read(bytes, None)?.check()
     }
 }
 
@@ -133,37 +98,38 @@ impl Loaded {
     }
 }
 
+impl From<Obj> for Loaded {
+    fn from(obj: Obj) -> Self {
+        let Obj { mesh, source, skipped, unknown_tags, remarks } = obj;
+        let skipped = skipped.into_iter().map(Notice::Skipped);
+        let tags = unknown_tags.into_iter().map(Notice::UnknownTag);
+        let notices = skipped.chain(tags).chain(remarks.into_iter().map(Notice::Remark)).collect();
+        Self { mesh, naming: Naming::Lines(source), notices }
+    }
+}
+
+impl From<Ply> for Loaded {
+    fn from(Ply { mesh, lines, remarks }: Ply) -> Self {
+        let notices = remarks.into_iter().map(Notice::Remark).collect();
+        Self { mesh, naming: Naming::LinesFromZero(lines), notices }
+    }
+}
+
+impl From<Usd> for Loaded {
+    fn from(Usd { mesh, lines, remarks, .. }: Usd) -> Self {
+        let notices = remarks.into_iter().map(Notice::Remark).collect();
+        Self { mesh, naming: Naming::LinesFromZero(lines), notices }
+    }
+}
+
 /// What a file calls its vertices and faces.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Naming {
     /// By their numbers from 1, and by lines.
     Lines(obj::Source),
     /// By their numbers from 0, and by lines.
     LinesFromZero(Lines),
-}
-
-/// The lines, from 1, on which vertices and faces begin in a file that counts them from 0; empty
-/// where they are not known, as in binary files.
-///
-/// As [`Names`] it calls a vertex "5 (line 17)": its number, from 0, and its line.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Lines {
-    pub(super) vertices: Vec<u32>,
-    pub(super) faces: Vec<u32>,
-}
-
-impl Names for Lines {
-    fn vertex(&self, vertex: VertexId) -> String {
-        numbered(vertex.0, self.vertices.get(vertex.index()))
-    }
-
-    fn face(&self, face: FaceId) -> String {
-        numbered(face.0, self.faces.get(face.index()))
-    }
-}
-
-fn numbered(id: u32, line: Option<&u32>) -> String {
-    line.map_or_else(|| id.to_string(), |line| format!("{id} (line {line})"))
 }
 
 impl Naming {
@@ -221,6 +187,7 @@ impl Names for Naming {
 
 /// Something in a file that was ignored or completed.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Notice {
     /// The lines with a tag that is not known.
     UnknownTag(UnknownTag),
@@ -258,6 +225,7 @@ impl fmt::Display for Notice {
 
 /// Why a file gives no cage.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LoadError {
     /// It is no OBJ file.
     #[error(transparent)]

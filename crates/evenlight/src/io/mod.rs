@@ -11,6 +11,7 @@ mod file;
 mod formats;
 pub mod glb;
 mod kind;
+mod lines;
 pub mod load;
 pub mod obj;
 pub mod obj_out;

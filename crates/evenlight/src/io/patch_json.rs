@@ -37,11 +37,11 @@ use crate::surface::{PlacedPatch, Role, SurfaceOptions};
 /// Those of `out`.
 ///
 /// ```
-/// use evenlight::io::{obj, patch_json};
+/// use evenlight::io::{load::Format, patch_json};
 /// use evenlight::{Surface, SurfaceOptions};
 ///
 /// let quad = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-/// let surface = Surface::build(obj::read_cage(quad)?.0, SurfaceOptions::default())?;
+/// let surface = Surface::build(Format::Obj.read_cage(quad)?.0, SurfaceOptions::default())?;
 /// let mut text = Vec::new();
 /// patch_json::write(&surface, 1, &mut text)?;
 /// assert!(text.starts_with(br#"{"scheme":"qas4","rules":"generated","contraction":"cc","rings":1,"#));
@@ -53,7 +53,7 @@ pub fn write(surface: &Surface, rings: usize, out: &mut impl Write) -> io::Resul
         out,
         r#"{{"scheme":"{}","rules":{},"contraction":"{}","rings":{rings},"patches":["#,
         options.scheme.name(),
-        Json(rules_name(options).map(Quoted)),
+        Json(rules(options).map(Quoted)),
         options.contraction,
     )?;
     for (k, patch) in surface.patches(rings).enumerate() {
@@ -63,13 +63,9 @@ pub fn write(surface: &Surface, rings: usize, out: &mut impl Write) -> io::Resul
     out.write_all(b"]}\n")
 }
 
-/// The name of the tables in files; `None` for a scheme without.
-fn rules_name(options: SurfaceOptions) -> Option<&'static str> {
-    match (options.scheme, options.rules) {
-        (SchemeKind::CatmullClark, _) => None,
-        (_, RuleSet::Published) => Some("published"),
-        (_, RuleSet::Generated) => Some("generated"),
-    }
+/// The tables; `None` for a scheme without.
+fn rules(options: SurfaceOptions) -> Option<RuleSet> {
+    (options.scheme != SchemeKind::CatmullClark).then_some(options.rules)
 }
 
 /// The object of one patch.
@@ -80,26 +76,26 @@ struct Record<'a> {
 
 impl fmt::Display for Record<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { surface, placed } = self;
-        let (face, corner) = surface.face_of(placed.quad).ok_or(fmt::Error)?;
+        let Self { surface, placed: PlacedPatch { place, patch } } = self;
+        let (face, corner) = surface.face_of(place.quad).ok_or(fmt::Error)?;
         let is_quad = surface.topology().faces().corners(face).len() == 4;
-        let center = placed.point.map(|i| &surface.extraordinary_points()[i]);
-        let [du, dv] = placed.patch.degree();
+        let center = place.point.map(|i| &surface.extraordinary_points()[i]);
+        let [du, dv] = patch.degree();
         write!(
             f,
             r#"{{"role":"{}","face":{},"corner":{},"vertex":{},"centre_of":{},"sector":{},"ring":{}"#,
-            Name(placed.role),
+            place.role,
             face.0,
             Json((!is_quad).then_some(corner)),
             Json(center.and_then(|p| p.vertex()).map(|v| v.0)),
             Json(center.and_then(|p| p.face()).map(|f| f.0)),
-            Json(placed.sector),
-            Json(ring(placed.role)),
+            Json(place.sector),
+            Json(ring(place.role)),
         )?;
         f.write_str(r#","domain":"#)?;
-        write_rows(f, &placed.domain)?;
+        write_rows(f, &place.domain)?;
         write!(f, r#","degree":[{du},{dv}],"coefficients":"#)?;
-        write_rows(f, placed.patch.coefs())?;
+        write_rows(f, patch.coefs())?;
         f.write_char('}')
     }
 }
@@ -117,23 +113,11 @@ fn write_rows<const N: usize>(f: &mut fmt::Formatter<'_>, rows: &[[f64; N]]) -> 
     f.write_char(']')
 }
 
-/// What a patch is, in words.
-struct Name(Role);
-
-impl fmt::Display for Name {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Role::Regular => f.write_str("regular"),
-            Role::Ring(k) => write!(f, "ring-{k}"),
-            Role::Cap => f.write_str("cap"),
-        }
-    }
-}
-
+/// The number of a ring in files, where rings count from 1.
 fn ring(role: Role) -> Option<usize> {
     match role {
+        Role::Ring(k) => Some(k + 1),
         Role::Regular | Role::Cap => None,
-        Role::Ring(k) => Some(k),
     }
 }
 
@@ -150,7 +134,7 @@ impl<T: fmt::Display> fmt::Display for Json<T> {
 }
 
 /// A word without characters that JSON must escape.
-struct Quoted(&'static str);
+struct Quoted(RuleSet);
 
 impl fmt::Display for Quoted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -30,7 +30,6 @@ mod font;
 mod graph;
 mod legend;
 mod panel;
-mod pieces;
 mod raster;
 mod shade;
 
@@ -39,6 +38,7 @@ pub use canvas::Picture;
 pub use graph::{GraphOptions, eigenfunctions};
 
 use crate::Surface;
+use crate::names::names;
 use crate::task::{Cancelled, Steps};
 use camera::Camera;
 use canvas::Label;
@@ -63,6 +63,7 @@ const SEPARATOR: [u8; 3] = [176, 184, 194];
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Style {
     /// A material in the light of a studio.
     #[default]
@@ -78,21 +79,12 @@ pub enum Style {
     Patches,
 }
 
-impl Style {
-    /// All styles, in the order in which they are listed to users.
-    pub const ALL: [Self; 5] =
-        [Self::Shaded, Self::Highlight, Self::Gauss, Self::Mean, Self::Patches];
-
-    /// The short name used in commands.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Shaded => "shaded",
-            Self::Highlight => "highlight",
-            Self::Gauss => "gauss",
-            Self::Mean => "mean",
-            Self::Patches => "patches",
-        }
-    }
+names! { Style, "style":
+    Shaded => "shaded",
+    Highlight => "highlight",
+    Gauss => "gauss",
+    Mean => "mean",
+    Patches => "patches",
 }
 
 /// How a picture is drawn.
@@ -139,6 +131,7 @@ impl Default for RenderOptions {
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PictureError {
     /// The picture is empty or too large.
     #[error("a picture of {width} x {height} pixels: each side must have 1 to {MAX_SIDE}")]

@@ -216,7 +216,11 @@ impl<const N: usize> Surface<N> {
     }
 }
 
-fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), ArrayError> {
+pub(super) fn check_length(
+    what: &'static str,
+    found: usize,
+    expected: usize,
+) -> Result<(), ArrayError> {
     if found == expected { Ok(()) } else { Err(ArrayError::Length { what, expected, found }) }
 }
 

@@ -3,8 +3,9 @@
 //! What is computed follows from the type of the answer ([`Answer`]). Of the instructions that
 //! everything with curvature takes, a position takes .4, first derivatives too .6, second ones .8.
 
+use super::arrays::check_length;
 use super::place::{from_sector, quadrant, to_sector};
-use super::{QuadId, Surface};
+use super::{ArrayError, QuadId, Surface};
 use crate::mesh::isolation::{CORNERS, Piece};
 use crate::patch::{Answer, FirstJet, Jet, Parts};
 use crate::task::for_each_chunk;
@@ -91,9 +92,9 @@ impl<const N: usize> Surface<N> {
     /// On a large surface most of the time goes into fetching control points; therefore places are
     /// taken in the order of their quads.
     ///
-    /// # Panics
+    /// # Errors
     ///
-    /// If there are not as many answers as places.
+    /// [`ArrayError::Length`] if there are not as many answers as places.
     ///
     /// ```
     /// use evenlight::{Cage, Mesh, QuadId, Surface, SurfaceOptions};
@@ -102,13 +103,17 @@ impl<const N: usize> Surface<N> {
     /// let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]]))?;
     /// let surface = Surface::build(cage, SurfaceOptions::default())?;
     /// let mut points = [[0.0; 3]; 2];
-    /// surface.eval_each(&[(QuadId(0), 0.0, 0.0), (QuadId(0), 0.5, 0.5)], &mut points);
+    /// surface.eval_each(&[(QuadId(0), 0.0, 0.0), (QuadId(0), 0.5, 0.5)], &mut points)?;
     /// assert_eq!(points[0], [0.0, 0.0, 0.0]);
     /// assert!((points[1][0] - 0.5).abs() < 1e-15 && (points[1][1] - 0.5).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn eval_each<A: Answer<N>>(&self, places: &[(QuadId, f64, f64)], answers: &mut [A]) {
-        assert_eq!(places.len(), answers.len(), "there must be as many answers as places");
+    pub fn eval_each<A: Answer<N>>(
+        &self,
+        places: &[(QuadId, f64, f64)],
+        answers: &mut [A],
+    ) -> Result<(), ArrayError> {
+        check_length("the array of answers", answers.len(), places.len())?;
         /// Fewer quads stay in a cache whatever the order.
         const LARGE: usize = 1 << 15;
         // Enough for a thread at a time, or for places that are near each other.
@@ -128,6 +133,7 @@ impl<const N: usize> Surface<N> {
                 (0..places.len()).for_each(answer);
             }
         });
+        Ok(())
     }
 }
 

@@ -4,8 +4,9 @@
 //! basis functions and the sums over one index of the control points, is computed once.
 //! The bits are the same as place by place.
 
+use super::arrays::check_length;
 use super::place::{from_sector, to_sector};
-use super::{QuadId, Surface};
+use super::{ArrayError, QuadId, Surface};
 use crate::mesh::isolation::{CORNERS, Piece};
 use crate::patch::basis::cubic_b_spline;
 use crate::patch::kernel::{Line, square, tensor_grid};
@@ -14,12 +15,12 @@ use crate::rings::for_each_pair;
 
 impl<const N: usize> Surface<N> {
     /// Evaluates at all pairs of the parameters `us` and `vs` of a quad. The answer at `us[i]`,
-    /// `vs[j]` is number i + j * `us.len()`, the same bits as from [`Surface::eval_as`]; NaN where
+    /// `vs[j]` is number i * `vs.len()` + j, the v index fastest as in patches; the same bits as from [`Surface::eval_as`]; NaN where
     /// there is no surface.
     ///
-    /// # Panics
+    /// # Errors
     ///
-    /// If there are not as many answers as pairs.
+    /// [`ArrayError::Length`] if there are not as many answers as pairs.
     ///
     /// ```
     /// use evenlight::{Cage, Mesh, QuadId, Surface, SurfaceOptions};
@@ -28,23 +29,30 @@ impl<const N: usize> Surface<N> {
     /// let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]]))?;
     /// let surface = Surface::build(cage, SurfaceOptions::default())?;
     /// let mut points = [[0.0; 3]; 4];
-    /// surface.eval_grid(QuadId(0), &[0.0, 0.5], &[0.5, 1.0], &mut points);
-    /// assert!((points[1][0] - 0.5).abs() < 1e-15 && (points[1][1] - 0.5).abs() < 1e-15);
-    /// assert_eq!(Some(points[2]), surface.eval_position(QuadId(0), 0.0, 1.0));
+    /// surface.eval_grid(QuadId(0), &[0.0, 0.5], &[0.5, 1.0], &mut points)?;
+    /// assert!((points[2][0] - 0.5).abs() < 1e-15 && (points[2][1] - 0.5).abs() < 1e-15);
+    /// assert_eq!(Some(points[1]), surface.eval_position(QuadId(0), 0.0, 1.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn eval_grid<A: Answer<N>>(&self, quad: QuadId, us: &[f64], vs: &[f64], answers: &mut [A]) {
-        assert_eq!(us.len() * vs.len(), answers.len(), "there must be as many answers as pairs");
+    pub fn eval_grid<A: Answer<N>>(
+        &self,
+        quad: QuadId,
+        us: &[f64],
+        vs: &[f64],
+        answers: &mut [A],
+    ) -> Result<(), ArrayError> {
+        check_length("the array of answers", answers.len(), us.len() * vs.len())?;
         answers.fill(A::NAN);
         let Some(&piece) = self.layout.plan.pieces[..self.num_quads()].get(quad.0 as usize) else {
-            return;
+            return Ok(());
         };
         let lines = |parameters: &[f64]| -> Vec<Line> {
             let lines = parameters.iter().enumerate().filter(|(_, at)| !at.is_nan());
             lines.map(|(number, at)| Line { number, at: at.clamp(0.0, 1.0) }).collect()
         };
-        let mut put = |i: usize, j: usize, answer: A| answers[i + j * us.len()] = answer;
+        let mut put = |i: usize, j: usize, answer: A| answers[i * vs.len() + j] = answer;
         self.eval_piece(piece, lines(us), lines(vs), 1.0, &mut put);
+        Ok(())
     }
 
     /// A piece that is `zoom` times as small as its quad, at its own parameters.

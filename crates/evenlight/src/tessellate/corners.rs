@@ -86,7 +86,7 @@ impl CornerValues {
     }
 }
 
-/// The values of a primvar at the nodes of a quad's grid, row by row.
+/// The values of a primvar at the nodes (i, j) of a quad's grid, j fastest.
 fn grid_values(surface: &Surface, primvar: usize, quad: QuadTriangles) -> Option<Vec<[f64; 4]>> {
     let m = quad.segments;
     let lines: Vec<f64> = (0..=m).map(|k| f64::from(k) / f64::from(m)).collect();
@@ -176,8 +176,8 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// Adds the triangles of `quad`, at a corner of a face, on whose grid the primvar has the values
-    /// `grid`.
+    /// Adds the triangles of `quad`, at a corner of a face, on whose grid the primvar has the
+    /// values `grid`.
     fn add(
         &mut self,
         mesh: &TriangleMesh,
@@ -192,7 +192,7 @@ impl<'a> Collector<'a> {
             let nodes = mesh.grid_nodes(quad, triangle);
             let mut corners = [NONE; 3];
             for ((corner, &vertex), (i, j)) in corners.iter_mut().zip(vertices).zip(nodes) {
-                let node = i + j * (m + 1);
+                let node = i * (m + 1) + j;
                 if numbers[node] == NONE {
                     let side = self.seams.side(place, m, (i, j));
                     numbers[node] = self.number(vertex, side, grid[node]);

@@ -46,6 +46,7 @@ impl fmt::Display for LineFault {
 
 /// What a line describes, with its number in the file, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Element {
     /// A vertex.
     Vertex(u64),
@@ -67,6 +68,7 @@ impl fmt::Display for Element {
 
 /// What the numbers in a corner of a face are of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Channel {
     /// Vertices, `v`.
     Vertex,
@@ -89,6 +91,7 @@ impl fmt::Display for Channel {
 /// What is wrong with a line. A `text` is of the file, shortened, with U+FFFD for bytes that
 /// are not text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Reason {
     /// A coordinate is not a number.
     #[error("`{text}` is not a number: correct it, as in 1.5 or -2e-3")]
