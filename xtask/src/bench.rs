@@ -20,6 +20,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
+use evenlight::io::load::Format;
 use evenlight::io::obj;
 use evenlight::{Mesh, Point, QuadId, SchemeKind, Surface, SurfaceOptions};
 
@@ -69,7 +70,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
 fn measure(name: &str, text: &[u8]) -> Result<(), Box<dyn std::error::Error>> {
     println!("{name}, {:.1} MB of OBJ", text.len() as f64 / 1e6);
     let clock = Instant::now();
-    let (cage, _) = obj::read_cage(text)?;
+    let (cage, _) = Format::Obj.read_cage(text)?;
     report("read and check", clock, cage.topology().faces().len(), "faces");
     let cage = Arc::new(cage);
     for scheme in SchemeKind::ALL {

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use evenlight::analyse::caps::{CapReport, cap_report};
 use evenlight::cap::{CapKind, CapOptions};
-use evenlight::io::obj;
+use evenlight::io::load::Format;
 use evenlight::mesh::BoundaryRule;
 use evenlight::{SchemeKind, Surface, SurfaceOptions};
 
@@ -140,7 +140,7 @@ fn measured(
     scheme: SchemeKind,
     options: CapOptions,
 ) -> Result<Course, Box<dyn Error>> {
-    let (cage, _) = obj::read_cage(&std::fs::read(file)?)?;
+    let (cage, _) = Format::Obj.read_cage(&std::fs::read(file)?)?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let boundary = Some(BoundaryRule::None);
     let mut surface =

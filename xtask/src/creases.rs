@@ -1,5 +1,5 @@
-//! `cargo xtask creases`: what fair rings beside a crease change, measured over ten boundary nets, as
-//! tables in the documentation.
+//! `cargo xtask creases`: what fair rings beside a crease change, measured over ten boundary nets,
+//! as tables in the documentation.
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -132,8 +132,8 @@ struct Row {
     /// The largest |H| of the last ring over that of the one before it, on the cup: Catmull-Clark's
     /// and fair.
     growth: [f64; 2],
-    /// How far the Jacobian of the fair characteristic map is from its mean: the root of the mean of
-    /// the squares, and the most.
+    /// How far the Jacobian of the fair characteristic map is from its mean: the root of the mean
+    /// of the squares, and the most.
     jacobian: [f64; 2],
 }
 

@@ -147,7 +147,7 @@ fn energies(file: &std::path::Path) -> Result<Option<Energies>, Box<dyn Error>> 
     let [valence] = valences[..] else { return Ok(None) };
     let energy = |scheme, contraction| -> Result<f64, Box<dyn Error>> {
         let surface = build(&cage, scheme, contraction)?;
-        let rings = surface.patches(RINGS).filter(|patch| patch.role != Role::Regular);
+        let rings = surface.patches(RINGS).filter(|patch| patch.place.role != Role::Regular);
         Ok(rings.map(|patch| shape_energy(&patch.patch)).sum())
     };
     let mut of = [[0.0; 2]; COMPARED.len()];

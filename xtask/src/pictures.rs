@@ -9,7 +9,7 @@ use std::fs;
 use std::sync::Arc;
 
 use evenlight::basis::{Eigenfunctions, Parity};
-use evenlight::io::obj;
+use evenlight::io::load::Format;
 use evenlight::net::Quadratic;
 use evenlight::picture::{
     self, GraphOptions, Picture, RenderOptions, Style, View, compare, render,
@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn cage(path: &str) -> Result<Arc<Cage>> {
-    let (cage, _) = obj::read_cage(&fs::read(super::workspace(path))?)?;
+    let (cage, _) = Format::Obj.read_cage(&fs::read(super::workspace(path))?)?;
     Ok(Arc::new(cage))
 }
 

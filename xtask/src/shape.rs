@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use evenlight::analyse::curvature::{Range, RingCurvature, curvature_over};
 use evenlight::analyse::shape::{PointShape, shape};
-use evenlight::io::obj;
+use evenlight::io::load::Format;
 use evenlight::surface::Role;
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
@@ -109,7 +109,7 @@ impl Row {
 
 /// The cage of a file.
 pub fn read(path: &Path) -> Result<Arc<Cage>, Box<dyn Error>> {
-    let (cage, _) = obj::read_cage(&std::fs::read(path)?)?;
+    let (cage, _) = Format::Obj.read_cage(&std::fs::read(path)?)?;
     Ok(Arc::new(cage))
 }
 

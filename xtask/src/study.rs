@@ -1,5 +1,5 @@
-//! `cargo xtask study`: all schemes over the obstacle course by independent measures of fairness, as
-//! tables in the documentation.
+//! `cargo xtask study`: all schemes over the obstacle course by independent measures of fairness,
+//! as tables in the documentation.
 //!
 //! A *row* is made of all extraordinary points of one valence of one cage, as in
 //! [`shape`](crate::shape). What is measured is said in the chapter.
@@ -20,8 +20,8 @@ use evenlight::{Cage, Mesh, SchemeKind, Surface};
 use crate::shape::{OBSTACLES, build, read, short};
 use crate::threads::map_on_threads;
 
-/// Measure the fairness of all schemes over the obstacle course in several ways and write the tables
-/// of crates/evenlight/docs/08-fair.md.
+/// Measure the fairness of all schemes over the obstacle course in several ways and write the
+/// tables of crates/evenlight/docs/08-fair.md.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Write nothing; fail if a number in the tables differs from the measured one in its third
@@ -205,8 +205,8 @@ impl Around<'_> {
         points.filter(|(mean, _)| mean.is_finite()).collect()
     }
 
-    /// The least K over all rings but the outermost, whose border the cage determines, on four curves
-    /// in each; over the squared scale.
+    /// The least K over all rings but the outermost, whose border the cage determines, on four
+    /// curves in each; over the squared scale.
     fn least_gauss(&self) -> f64 {
         let radii = (4..4 * RINGS).map(|k| self.radius(k / 4, 0.25 * (k % 4) as f64));
         let values = radii.flat_map(|r| self.curve(r)).map(|(_, gauss)| gauss);
@@ -262,8 +262,8 @@ fn spikes() -> Result<Vec<Spikes>, Box<dyn Error>> {
     Ok(measured.into_iter().collect::<Result<Vec<_>, String>>()?)
 }
 
-/// The largest |H| beyond 100 degrees from a node that is lifted out of a plane, over the largest |H|
-/// at all; rings 0 to 3. The node is that `corner` of a face around the point, counted from it.
+/// The largest |H| beyond 100 degrees from a node that is lifted out of a plane, over the largest
+/// |H| at all; rings 0 to 3. The node is that `corner` of a face around the point, counted from it.
 fn far_side(flat: &Mesh, corner: usize, scheme: SchemeKind) -> Result<f64, Box<dyn Error>> {
     let mut mesh = flat.clone();
     let surface = build(&Arc::new(Cage::new(mesh.clone())?), scheme)?;

@@ -1,21 +1,27 @@
 //! `cargo xtask tidy`: what the compiler does not check.
 //!
 //! - modules of the library use only modules below them (the order is in [`LAYERS`]);
+//! - in no crate do modules use each other in a circle ([`circles`]);
+//! - comments are no wider than code, [`MAX_COLUMNS`];
 //! - every citation key `[Key...]` is in `docs/refs.bib`;
 //! - no file is longer than [`MAX_LINES`] lines, no function than [`MAX_FUNCTION`];
 //! - no text that a commit should not leave behind ([`FORBIDDEN`]).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use crate::circles::circles;
+
 /// The modules of the library from the bottom up: each may use those before it.
-const LAYERS: [&str; 17] = [
+const LAYERS: [&str; 21] = [
+    "names",
     "point",
     "angle",
     "task",
     "quadrature",
     "dense",
+    "sparse",
     "patch",
     "net",
     "mesh",
@@ -24,6 +30,8 @@ const LAYERS: [&str; 17] = [
     "cap",
     "basis",
     "surface",
+    "stencil",
+    "complex",
     "tessellate",
     "analyse",
     "io",
@@ -35,6 +43,9 @@ const MAX_LINES: usize = 700;
 
 /// The most lines of a function outside of tests.
 const MAX_FUNCTION: usize = 70;
+
+/// The width of a comment; rustfmt keeps code to it, but lets comments be.
+const MAX_COLUMNS: usize = 100;
 
 /// Words that stand for unfinished work or for the machine of whoever wrote them.
 const FORBIDDEN: [&str; 6] = ["TODO", "FIXME", "XXX", "dbg!(", "todo!(", "/home/"];
@@ -50,6 +61,7 @@ pub fn run(_arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     ))?);
     let mut faults = Vec::new();
     let mut files = Vec::new();
+    let mut crates: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
     for folder in ["crates", "xtask"] {
         collect_rust_files(&super::workspace(folder), &mut files)?;
     }
@@ -58,6 +70,13 @@ pub fn run(_arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         let text = std::fs::read_to_string(file)?;
         let name = file.strip_prefix(super::workspace(""))?.display().to_string();
         check_file(&name, &text, &keys, &mut faults);
+        if let Some((krate, inside)) = name.split_once("/src/") {
+            crates.entry(krate.to_owned()).or_default().push((inside.to_owned(), text));
+        }
+    }
+    for (krate, files) in &crates {
+        let found = circles(files).into_iter();
+        faults.extend(found.map(|circle| format!("{krate}/src: {circle}")));
     }
     for fault in &faults {
         println!("{fault}");
@@ -98,6 +117,9 @@ fn check_file(name: &str, text: &str, keys: &BTreeSet<String>, faults: &mut Vec<
         for key in cited(line).filter(|key| !keys.contains(*key)) {
             faults.push(format!("{at}: [{key}] is not in refs.bib"));
         }
+        if is_comment(line) && line.chars().count() > MAX_COLUMNS {
+            faults.push(format!("{at}: a comment of {} columns", line.chars().count()));
+        }
         for word in FORBIDDEN.into_iter().filter(|word| !own_rules && line.contains(word)) {
             faults.push(format!("{at}: {word}"));
         }
@@ -106,6 +128,12 @@ fn check_file(name: &str, text: &str, keys: &BTreeSet<String>, faults: &mut Vec<
         check_layers(name, inside, text, faults);
     }
     check_functions(name, text, faults);
+}
+
+/// Whether a line is a comment alone, and no row of a table, which cannot be broken.
+fn is_comment(line: &str) -> bool {
+    let text = line.trim_start();
+    text.starts_with("//") && !text.trim_start_matches(['/', '!']).trim_start().starts_with('|')
 }
 
 /// The keys cited in a line: after `[`, letters, two digits of a year, perhaps a suffix `-EG`.

@@ -8,22 +8,23 @@ use std::sync::Arc;
 
 use clap::Args;
 use evenlight::analyse::caps::{CapReport, cap_report};
-use evenlight::analyse::continuity::Jumps;
 use evenlight::analyse::curvature::{
     CurvatureReport, PointReport, RingCurvature, curvature_report,
 };
+use evenlight::analyse::defect::Defect;
 use evenlight::analyse::shape::{PointShape, shape};
 use evenlight::cap::CapKind;
 use evenlight::surface::ExtraordinaryPoint;
 use evenlight::{SchemeKind, Surface};
 
 use crate::cap::{self, CapArg};
+use crate::edits::QArg;
 use crate::error::Failure;
 use crate::input::{self, CageArg};
 use crate::options::{BoundaryArg, RulesArg, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
-use crate::q::QArg;
+use crate::surface;
 use crate::table::{Table, point_name, short};
 use record::Document;
 
@@ -102,14 +103,14 @@ pub fn run(args: &AnalyzeArgs, quiet: bool) -> Result<(), Failure> {
     for &scheme in &args.schemes {
         let options = args.boundary.applied_to(args.rules.options_among(&args.schemes, scheme));
         progress.stage(format!("Analysing {}", scheme.name()));
-        let mut surface = input::build(Arc::clone(&cage), options, &args.cage.source)?;
+        let mut surface = surface::build(Arc::clone(&cage), options, &args.cage.source)?;
         edits.apply(&mut surface)?;
-        let mut analysis = Analysis::of(surface, args.rings.into());
+        let mut analysis = Analysis::of(surface, args.rings.into())?;
         analysis.close(cap, args.rings.into())?;
         analyses.push(analysis);
         progress.step();
     }
-    input::report_omitted(&analyses[0].surface, &args.cage.source)?;
+    surface::report_omitted(&analyses[0].surface, &args.cage.source)?;
     if args.json {
         args.output.write_json(&Document::new(&analyses, args.rings.into()))
     } else {
@@ -128,10 +129,11 @@ pub struct Analysis {
 
 impl Analysis {
     /// Measures `surface` over `rings` rings around every extraordinary point.
-    pub fn of(surface: Surface, rings: usize) -> Self {
-        let report = curvature_report(&surface, rings);
+    pub fn of(surface: Surface, rings: usize) -> Result<Self, Failure> {
+        let report = curvature_report(&surface, rings)
+            .map_err(|error| Failure::Unusable(error.to_string()))?;
         let shapes = shape(&surface, rings);
-        Self { surface, report, shapes, caps: Vec::new() }
+        Ok(Self { surface, report, shapes, caps: Vec::new() })
     }
 
     /// Closes the surface and measures the caps too.
@@ -267,7 +269,7 @@ fn point_row(scheme: &str, Point { place, report, shape, .. }: Point) -> Vec<Str
 pub fn jump_table(analyses: &[Analysis]) -> Table {
     let mut table = Table::new(&["all borders", "position jump", "tangent jump", "curvature jump"]);
     for analysis in analyses {
-        let Jumps { position, tangent_plane, curvature, .. } = analysis.report.jumps;
+        let Defect { position, tangent_plane, curvature } = analysis.report.jumps.defect;
         let numbers = [position, tangent_plane, curvature].map(short);
         table.push([analysis.scheme().to_owned()].into_iter().chain(numbers));
     }

@@ -5,8 +5,7 @@ use evenlight::cap::{CapError, CapKind, CapOptions};
 use evenlight::{SchemeKind, Surface};
 
 use crate::error::Failure;
-use crate::input;
-use crate::options::SurfaceArgs;
+use crate::surface::{self, SurfaceArgs};
 
 /// What closes the holes behind rings.
 #[derive(Args, Clone, Copy, Debug)]
@@ -25,7 +24,8 @@ pub enum CapChoice {
     None,
     /// What suits the scheme: bi6 for guided6, else bi5
     Auto,
-    /// Bi-3, 3 x 3 patches per sector (more where the rings are split); tangent planes across lines agree to small angles only
+    /// Bi-3, 3 x 3 patches per sector (more where the rings are split); tangent planes across lines
+    /// agree to small angles only
     Bi3,
     /// Bi-4, 2 x 2 patches per sector, or as the rings are split
     Bi4,
@@ -55,7 +55,7 @@ impl CapArg {
     /// The surface that `args` ask for, with caps behind `rings` rings if they are asked for.
     pub fn read(self, args: &SurfaceArgs, rings: u8) -> Result<Surface, Failure> {
         let kind = self.kind(&[args.scheme])?;
-        let mut surface = input::read_surface(args)?;
+        let mut surface = surface::read_surface(args)?;
         close(&mut surface, kind, rings.into())?;
         Ok(surface)
     }

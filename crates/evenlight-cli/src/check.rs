@@ -13,9 +13,10 @@ use evenlight::{Cage, RuleSet, SchemeKind, SurfaceOptions};
 use serde::Serialize;
 
 use crate::error::{Failure, warn};
-use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text, valence_warning};
+use crate::input::{self, CageArg, Source, WHY_OMITTED, omitted_text};
 use crate::options::{BoundaryArg, scheme_parser};
 use crate::output::Target;
+use crate::surface::valence_warning;
 
 mod fix;
 
@@ -163,7 +164,7 @@ impl Report {
                 None => Self::of_cage(cage, notices, points, options),
             },
             Err(error) => Self {
-                errors: error.faults(),
+                errors: error.diagnostics().into_iter().map(|fault| fault.message).collect(),
                 warnings: error.notices().iter().map(ToString::to_string).collect(),
                 ..Self::default()
             },
@@ -188,7 +189,7 @@ impl Report {
             components: Some(cage.num_components()),
             valences: cage.interior_valences(),
             ngons,
-            boundary: Some(boundary_name(boundary)),
+            boundary: Some(boundary.name()),
             omitted_faces: Some(omitted),
             warnings: notices.iter().map(ToString::to_string).collect(),
             ..Self::default()
@@ -313,16 +314,9 @@ impl fmt::Display for RuleName {
             Some(PointRule::Scheme) => f.write_str(self.rule)?,
             Some(PointRule::CatmullClark(reason)) => write!(f, "cc: {reason}")?,
             Some(PointRule::FairCrease(reason)) => write!(f, "fair rings: {reason}")?,
+            Some(_) => f.write_str(self.rule)?,
         }
         f.write_str(if self.was_semi_sharp { ", after semi-sharp creases have gone" } else { "" })
-    }
-}
-
-fn boundary_name(rule: BoundaryRule) -> &'static str {
-    match rule {
-        BoundaryRule::None => "none",
-        BoundaryRule::EdgeOnly => "edge-only",
-        BoundaryRule::EdgeAndCorner => "edge-and-corner",
     }
 }
 

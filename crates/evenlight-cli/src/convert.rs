@@ -71,6 +71,7 @@ pub fn write(mesh: &Mesh, format: Format, ascii: bool, target: &Target) -> Resul
             (ply::omitted(mesh), target.write(write))
         }
         Format::Usda => (usd::omitted(mesh), target.write(|mut out| usd::write(mesh, &mut out))),
+        _ => return Err(Failure::Usage(format!("{} is not written", format.name()))),
     };
     written?;
     omitted.iter().for_each(|sentence| warn(format_args!("{target}: {sentence}")));

@@ -15,9 +15,9 @@ use evenlight::{FaceId, QuadId, Surface, SurfacePoint};
 use crate::cap::CapRingsArg;
 use crate::error::Failure;
 use crate::input::{self, Source, WHY_OMITTED};
-use crate::options::SurfaceArgs;
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::SurfaceArgs;
 
 /// Arguments of `evenlight eval`.
 #[derive(Args, Debug)]

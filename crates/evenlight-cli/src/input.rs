@@ -1,4 +1,4 @@
-//! Where input comes from, a file or stdin as `-`, and the way from there to a surface.
+//! Where input comes from, a file or stdin as `-`, and the way from there to a cage.
 
 use std::convert::Infallible;
 use std::fmt;
@@ -9,15 +9,11 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use clap::Args;
-use evenlight::io::load::{Format, LoadError, Loaded, Naming};
-use evenlight::io::obj::Reason;
-use evenlight::mesh::MeshError;
-use evenlight::mesh::isolation::Place;
-use evenlight::surface::{self, PointRule, SurfaceError};
-use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
+use evenlight::Cage;
+use evenlight::io::FileError;
+use evenlight::io::load::{Format, LoadError, Loaded};
 
 use crate::error::{Failure, warn};
-use crate::options::SurfaceArgs;
 
 /// A place to read from.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,48 +55,24 @@ impl Source {
     fn format(&self) -> Option<Format> {
         match self {
             Self::Stdin => None,
-            Self::File(path) => Format::from_extension(path.extension()?.to_str()?),
+            Self::File(path) => Format::from_path(path),
         }
     }
 
-    /// The failure that a cage from here cannot be used; says why it was read as OBJ, if that may be
-    /// the cause.
+    /// The failure that a cage from here cannot be used.
     pub fn refused(&self, error: &LoadError) -> Failure {
-        let is_file = matches!(self, Self::File(_));
-        let note = match (self.format(), is_other_kind(error)) {
-            (Some(_), true) => "\nnote: it is read as OBJ because of its name".to_owned(),
-            (None, false) if is_file && is_no_obj(error) => format!(
-                "\nnote: it is read as OBJ, since neither its name nor its beginning tells what it \
-                 is; the names of cages end in {}",
-                Format::ALL.map(Format::ending).join(", ")
-            ),
-            _ => String::new(),
-        };
-        Failure::Unusable(format!("{self}: {error}{note}"))
+        Failure::Unusable(match self {
+            Self::Stdin => format!("{self}: {error}"),
+            Self::File(path) => {
+                FileError::Load { path: path.clone(), error: error.clone() }.to_string()
+            }
+        })
     }
 
     /// All bytes, which must be UTF-8; a failure names the place.
     pub fn read_text(&self) -> Result<String, Failure> {
         String::from_utf8(self.read()?)
             .map_err(|_| Failure::Unusable(format!("{self}: this is not a text file (UTF-8)")))
-    }
-}
-
-/// Whether the file was to be read as OBJ and is something else.
-fn is_other_kind(error: &LoadError) -> bool {
-    let LoadError::Obj(error) = error else { return false };
-    error.faults.iter().any(|fault| matches!(fault.reason, Reason::OtherKind { .. }))
-}
-
-/// Whether the file may be no OBJ at all, though it was read as such.
-fn is_no_obj(error: &LoadError) -> bool {
-    match error {
-        LoadError::Obj(_) => true,
-        LoadError::Check(refusal) => {
-            let no_faces = |fault: &MeshError| matches!(fault, MeshError::NoFaces { .. });
-            matches!(refusal.naming, Naming::Lines(_)) && refusal.error.errors.iter().any(no_faces)
-        }
-        LoadError::Ply(_) | LoadError::Usd(_) => false,
     }
 }
 
@@ -139,16 +111,6 @@ pub fn refuse_shared_stdin(sources: &[(&str, &Source)]) -> Result<(), Failure> {
     }
 }
 
-/// The surface that `args` ask for; what is ignored or left out is said on stderr.
-pub fn read_surface(args: &SurfaceArgs) -> Result<Surface, Failure> {
-    let source = &args.cage.source;
-    let edits = args.q.read(source, &[args.scheme])?;
-    let mut surface = build(read_cage(&args.cage)?, args.options(), source)?;
-    report_omitted(&surface, source)?;
-    edits.apply(&mut surface)?;
-    Ok(surface)
-}
-
 /// The cage that `arg` names; what is ignored is said on stderr.
 pub fn read_cage(arg: &CageArg) -> Result<Arc<Cage>, Failure> {
     let source = &arg.source;
@@ -172,90 +134,6 @@ pub fn read_mesh(arg: &CageArg) -> Result<Result<Loaded, LoadError>, Failure> {
         return Err(Failure::Usage(format!("{}: --prim is for USD files only", arg.source)));
     }
     Ok(format.read(&bytes, arg.prim.as_deref()))
-}
-
-/// The surface over `cage`, which was read from `source`; says on stderr which points have not the
-/// rules of the scheme because it has none for their valence.
-pub fn build(
-    cage: Arc<Cage>,
-    options: SurfaceOptions,
-    source: &Source,
-) -> Result<Surface, Failure> {
-    let surface = Surface::build(cage, options).map_err(|error| match error {
-        SurfaceError::Contraction(error) => Failure::Usage(error.to_string()),
-        error => Failure::Unusable(format!("{source}: {error}")),
-    })?;
-    let places = surface.extraordinary_points().iter().filter_map(|point| {
-        (point.rule == PointRule::CatmullClark(surface::Reason::Valence))
-            .then_some((point.place, point.valence))
-    });
-    if let Some(warning) = valence_warning(places, options) {
-        warn(format_args!("{source}: {warning}"));
-    }
-    Ok(surface)
-}
-
-/// The most points that a warning names.
-const LISTED: usize = 8;
-
-/// The sentence on the points, with their valences, for which the scheme has no rules.
-pub fn valence_warning(
-    points: impl Iterator<Item = (Place, usize)>,
-    options: SurfaceOptions,
-) -> Option<String> {
-    let SurfaceOptions { scheme, rules, .. } = options;
-    if scheme == SchemeKind::CatmullClark {
-        return None; // nothing can take its place: where it has no rules, there is no surface
-    }
-    let name = |(place, valence): (Place, usize)| match place {
-        Place::Vertex(v) => format!("vertex {} has valence {valence}", v.0),
-        Place::FaceCentre(f) => format!("face {} has {valence} corners", f.0),
-    };
-    let without_rules = points.filter(|&(_, valence)| !scheme.has_rules(rules, valence));
-    let mut names: Vec<String> = without_rules.map(name).collect();
-    if names.is_empty() {
-        return None;
-    }
-    let more = names.len().saturating_sub(LISTED);
-    names.truncate(LISTED);
-    if more > 0 {
-        names.push(format!("{more} more"));
-    }
-    let valences = match scheme.valences(rules) {
-        "none" => "no published rules".to_owned(),
-        valences => format!("rules for valences {valences} only"),
-    };
-    Some(format!(
-        "scheme {} has {valences}, cc takes their place: {} (numbers from 0)",
-        scheme.name(),
-        names.join(", ")
-    ))
-}
-
-/// Says on stderr which faces have no surface.
-///
-/// # Errors
-///
-/// If none has.
-pub fn report_omitted(surface: &Surface, source: &Source) -> Result<(), Failure> {
-    let faces = surface.topology().faces().len();
-    match surface.omitted_faces().len() {
-        0 => Ok(()),
-        omitted if omitted == faces => {
-            let all = if faces == 1 {
-                "the only face is".to_owned()
-            } else {
-                format!("all {faces} faces are")
-            };
-            Err(Failure::Unusable(format!(
-                "{source}: {all} left out ({WHY_OMITTED}): no surface remains"
-            )))
-        }
-        omitted => {
-            warn(format_args!("{source}: {}", omitted_text(omitted, faces)));
-            Ok(())
-        }
-    }
 }
 
 /// Which faces have no surface.

@@ -16,6 +16,7 @@ mod cap;
 mod check;
 mod convert;
 mod demo;
+mod edits;
 mod error;
 mod eval;
 mod input;
@@ -27,6 +28,7 @@ mod progress;
 mod q;
 mod render;
 mod spectrum;
+mod surface;
 mod table;
 
 use std::ffi::OsString;
@@ -41,10 +43,10 @@ use options::Global;
 /// Fair subdivision surfaces from quad cages: Quadratic-Attraction and Evolving-Guide surfaces
 /// beside Catmull-Clark, as exact Bernstein-Bezier patches.
 ///
-/// Faces and vertices are numbered from 0, but in messages about a line of a file as there. A face with four corners a b c d has parameters
-/// (u,v) in the unit square, a at (0,0), b at (1,0), c at (1,1), d at (0,1). Any other face is
-/// one such square per corner, from the corner at (0,0) to the face's centre at (1,1). Lengths
-/// are in the units of the cage, angles in degrees.
+/// Faces and vertices are numbered from 0, but in messages about a line of a file as there. A face
+/// with four corners a b c d has parameters (u,v) in the unit square, a at (0,0), b at (1,0), c at
+/// (1,1), d at (0,1). Any other face is one such square per corner, from the corner at (0,0) to the
+/// face's centre at (1,1). Lengths are in the units of the cage, angles in degrees.
 ///
 /// Exit codes: 0 good, 1 the input cannot be used, 2 wrong usage.
 #[derive(Parser)]

@@ -1,15 +1,13 @@
 //! Options that several subcommands share.
 
 use std::ops::RangeInclusive;
+use std::str::FromStr;
 
+use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
 use evenlight::mesh::BoundaryRule;
 use evenlight::surface::CreaseRings;
-use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions};
-
-use crate::input::CageArg;
-use crate::q::QArg;
+use evenlight::{Contraction, RuleSet, SchemeKind, SurfaceOptions, UnknownName};
 
 /// Options that stand before or after any subcommand.
 #[derive(Args, Clone, Copy, Debug)]
@@ -24,77 +22,24 @@ pub struct Global {
     pub threads: Option<u16>,
 }
 
-/// The cage and the rules that make a surface of it.
-#[derive(Args, Clone, Debug)]
-pub struct SurfaceArgs {
-    #[command(flatten)]
-    pub cage: CageArg,
-
-    /// Subdivision scheme; what it is like around an extraordinary point of valence n
-    #[arg(long, default_value = SchemeKind::default().name(), value_parser = scheme_parser())]
-    pub scheme: SchemeKind,
-
-    #[command(flatten)]
-    pub rules: RulesArg,
-
-    #[command(flatten)]
-    pub boundary: BoundaryArg,
-
-    #[command(flatten)]
-    pub q: QArg,
-}
-
 /// What happens at the boundary and beside creases.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct BoundaryArg {
     /// The rule at the boundary of an open cage [default: what the file says, or else
     /// edge-and-corner]
-    #[arg(long, value_enum, value_name = "RULE")]
-    pub boundary: Option<Boundary>,
+    #[arg(long, value_name = "RULE", value_parser = named(BoundaryRule::ALL, BoundaryRule::name, about_boundary))]
+    pub boundary: Option<BoundaryRule>,
 
-    /// The rings of vertices on infinitely sharp creases and the boundary that are not regular there;
-    /// the curves of creases are the same with both
-    #[arg(long, value_enum, value_name = "RINGS", default_value_t = Creases::Cc)]
-    pub creases: Creases,
-}
-
-/// The rings beside creases by their names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Creases {
-    /// Catmull-Clark's, as in OpenSubdiv: no tangent plane from four faces between sharp edges on
-    Cc,
-    /// Least energy: tangent plane and bounded curvature, for up to 12 faces
-    Fair,
-}
-
-/// The rules at the boundary by their names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Boundary {
-    /// Faces that touch the boundary have no surface
-    None,
-    /// The boundary is a smooth curve, also at vertices of a single face
-    EdgeOnly,
-    /// The boundary is a smooth curve through the vertices of a single face
-    EdgeAndCorner,
+    /// The rings of vertices on infinitely sharp creases and the boundary that are not regular
+    /// there; the curves of creases are the same with both
+    #[arg(long, value_name = "RINGS", default_value_t, value_parser = named(CreaseRings::ALL, CreaseRings::name, about_creases))]
+    pub creases: CreaseRings,
 }
 
 impl BoundaryArg {
-    /// The rule at the boundary in the library's terms.
-    fn rule(self) -> Option<BoundaryRule> {
-        self.boundary.map(|boundary| match boundary {
-            Boundary::None => BoundaryRule::None,
-            Boundary::EdgeOnly => BoundaryRule::EdgeOnly,
-            Boundary::EdgeAndCorner => BoundaryRule::EdgeAndCorner,
-        })
-    }
-
     /// The options with what happens at boundaries and creases.
     pub fn applied_to(self, options: SurfaceOptions) -> SurfaceOptions {
-        let creases = match self.creases {
-            Creases::Cc => CreaseRings::CatmullClark,
-            Creases::Fair => CreaseRings::Fair,
-        };
-        SurfaceOptions { boundary: self.rule(), creases, ..options }
+        SurfaceOptions { boundary: self.boundary, creases: self.creases, ..options }
     }
 }
 
@@ -102,8 +47,8 @@ impl BoundaryArg {
 #[derive(Args, Clone, Copy, Debug)]
 pub struct RulesArg {
     /// Tables of weights of the scheme (`cc` is a formula and has none)
-    #[arg(long, value_enum, default_value_t = Rules::Generated)]
-    pub rules: Rules,
+    #[arg(long, default_value_t, value_parser = named(RuleSet::ALL, RuleSet::name, about_rules))]
+    pub rules: RuleSet,
 
     /// How fast the rings of guided schemes contract: `cc` as Catmull-Clark's, `half` by 1/2 at
     /// every valence, or any factor between 0.3 and 0.7; other schemes contract as they do
@@ -116,7 +61,7 @@ impl RulesArg {
     pub fn options(&self, scheme: SchemeKind) -> SurfaceOptions {
         SurfaceOptions {
             scheme,
-            rules: self.rules.into(),
+            rules: self.rules,
             contraction: self.contraction,
             ..SurfaceOptions::default()
         }
@@ -133,20 +78,22 @@ impl RulesArg {
     }
 }
 
-impl SurfaceArgs {
-    /// Scheme and rules in the library's terms.
-    pub fn options(&self) -> SurfaceOptions {
-        self.boundary.applied_to(self.rules.options(self.scheme))
-    }
+/// Reads the name of one of `all` choices, each listed with what `about` says of it.
+fn named<T, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+    about: fn(T) -> String,
+) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + FromStr<Err = UnknownName> + Send + Sync + 'static,
+{
+    let values = all.map(|choice| PossibleValue::new(name(choice)).help(about(choice)));
+    PossibleValuesParser::new(values).try_map(|name| name.parse())
 }
 
 /// Reads the short name of a scheme.
 pub fn scheme_parser() -> impl TypedValueParser<Value = SchemeKind> {
-    let values = SchemeKind::ALL.map(|s| PossibleValue::new(s.name()).help(about_scheme(s)));
-    PossibleValuesParser::new(values).map(|name| {
-        let scheme = SchemeKind::ALL.into_iter().find(|scheme| scheme.name() == name);
-        scheme.expect("the name is one of the possible values")
-    })
+    named(SchemeKind::ALL, SchemeKind::name, |scheme| about_scheme(scheme).to_owned())
 }
 
 /// The degree, the patches around a point of valence n, the continuity there.
@@ -177,31 +124,44 @@ fn about_scheme(scheme: SchemeKind) -> &'static str {
         SchemeKind::Fair4 => "Fairness-optimal: QAS4's net with the rules of least energy, bi-4",
         SchemeKind::Fair4d => "Fairness-optimal: EG's net with the rules of least energy, bi-4",
         SchemeKind::Fair3 => "Fairness-optimal: QAS3's net with the rules of least energy, bi-3",
+        _ => "Described in the library",
     }
 }
 
-/// The tables by their names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rules {
-    /// As the papers print them.
-    Published,
-    /// At full precision.
-    Generated,
+fn about_boundary(rule: BoundaryRule) -> String {
+    match rule {
+        BoundaryRule::None => "Faces that touch the boundary have no surface",
+        BoundaryRule::EdgeOnly => {
+            "The boundary is a smooth curve, also at vertices of a single face"
+        }
+        BoundaryRule::EdgeAndCorner => {
+            "The boundary is a smooth curve through the vertices of a single face"
+        }
+    }
+    .to_owned()
 }
 
-impl ValueEnum for Rules {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[Self::Published, Self::Generated]
+fn about_creases(rings: CreaseRings) -> String {
+    match rings {
+        CreaseRings::CatmullClark => {
+            "Catmull-Clark's, as in OpenSubdiv: no tangent plane from four faces between sharp \
+             edges on"
+        }
+        CreaseRings::Fair => {
+            "Least energy: tangent plane and bounded curvature, for up to 12 faces"
+        }
+        _ => "Described in the library",
     }
+    .to_owned()
+}
 
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let (name, about) = match self {
-            Self::Published => ("published", "Five digits, as the papers print them"),
-            Self::Generated => ("generated", "Full precision"),
-        };
-        let help = format!("{about}; valences {}", valences((*self).into()));
-        Some(PossibleValue::new(name).help(help))
-    }
+fn about_rules(rules: RuleSet) -> String {
+    let about = match rules {
+        RuleSet::Published => "Five digits, as the papers print them",
+        RuleSet::Generated => "Full precision",
+        _ => "Described in the library",
+    };
+    format!("{about}; valences {}", valences(rules))
 }
 
 /// The valences with rules, in words, schemes with the same valences together.
@@ -218,26 +178,13 @@ fn valences(rules: RuleSet) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
-impl From<Rules> for RuleSet {
-    fn from(rules: Rules) -> Self {
-        match rules {
-            Rules::Published => Self::Published,
-            Rules::Generated => Self::Generated,
-        }
-    }
-}
-
 /// The name of the tables on the command line and in files; `None` for a scheme without.
 pub fn rules_name(options: SurfaceOptions) -> Option<&'static str> {
-    match (options.scheme, options.rules) {
-        (SchemeKind::CatmullClark, _) => None,
-        (_, RuleSet::Published) => Some("published"),
-        (_, RuleSet::Generated) => Some("generated"),
-    }
+    (options.scheme != SchemeKind::CatmullClark).then(|| options.rules.name())
 }
 
 /// Two numbers with `separator` between them, as in `1200x900` or `-30,20`.
-pub fn parse_pair<T: std::str::FromStr>(text: &str, separator: char) -> Result<[T; 2], String> {
+pub fn parse_pair<T: FromStr>(text: &str, separator: char) -> Result<[T; 2], String> {
     let parts = text.split_once(separator).and_then(|(a, b)| Some([number(a)?, number(b)?]));
     parts.ok_or_else(|| format!("two numbers with '{separator}' between them are needed"))
 }
@@ -261,6 +208,6 @@ pub fn parse_valences(text: &str) -> Result<RangeInclusive<usize>, String> {
         .ok_or_else(|| "a valence or an inclusive range such as 3..10 is needed".to_owned())
 }
 
-fn number<T: std::str::FromStr>(text: &str) -> Option<T> {
+fn number<T: FromStr>(text: &str) -> Option<T> {
     text.trim().parse().ok()
 }

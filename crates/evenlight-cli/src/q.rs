@@ -15,9 +15,6 @@
 //!     q_1  q_2  q_3  line s-1
 //! ```
 
-mod edits;
-mod file;
-
 use std::io::{self, Write};
 
 use clap::Args;
@@ -25,15 +22,14 @@ use evenlight::mesh::isolation::Place;
 use evenlight::net::Quadratic;
 use evenlight::rings::Rings;
 use evenlight::surface::ExtraordinaryPoint;
-use evenlight::{Point, SchemeKind, Surface};
+use evenlight::{Point, Surface};
 use serde_json::json;
 
+use crate::edits::no_quadratic;
 use crate::error::Failure;
-use crate::input::{self, Source};
-use crate::options::SurfaceArgs;
 use crate::output::Target;
+use crate::surface::{self, SurfaceArgs};
 use crate::table::{Table, point_name, short, triple};
-pub use edits::Edits;
 
 /// Arguments of `evenlight q`.
 #[derive(Args, Debug)]
@@ -54,61 +50,13 @@ pub struct QArgs {
     output: Target,
 }
 
-/// The option `--q`.
-#[derive(Args, Clone, Debug)]
-pub struct QArg {
-    /// JSON file with quadratics that replace the default ones (qas3, qas4); `-` for stdin
-    ///
-    /// A list (or {"points": LIST}) of objects with "vertex": ID, or "face": ID for the centre
-    /// of a face that is no quad, numbered from 0, and one of:
-    ///
-    /// "affine": {"matrix": [[3], [3], [3]], "translation": [3]}: the default q moved, about its
-    /// own centre p: x -> p + M (x - p) + t. The matrix M has rows; without it, M is the
-    /// identity; without translation, t is 0.
-    ///
-    /// "coefficients": [6 points]: q_1 to q_6 in sector 0, as `evenlight q --json` prints them.
-    ///
-    /// "sectors": [n lists of 6 points]: one proposal per sector, as `evenlight q --sectors`
-    /// prints them; their mean is taken.
-    #[arg(long = "q", value_name = "FILE")]
-    pub file: Option<Source>,
-}
-
-impl QArg {
-    /// The quadratics for surfaces over `cage` with the given schemes.
-    ///
-    /// # Errors
-    ///
-    /// Wrong usage if none of the schemes has a quadratic, or cage and quadratics would both come
-    /// from stdin; else if the file cannot be read or understood.
-    pub fn read(&self, cage: &Source, schemes: &[SchemeKind]) -> Result<Edits, Failure> {
-        let Some(source) = &self.file else { return Ok(Edits::default()) };
-        if !schemes.iter().any(|scheme| scheme.has_quadratic()) {
-            let names: Vec<&str> = schemes.iter().map(|scheme| scheme.name()).collect();
-            return Err(no_quadratic("--q", &names.join(", ")));
-        }
-        input::refuse_shared_stdin(&[("cage", cage), ("--q", source)])?;
-        Edits::parse(source, &source.read_text()?)
-    }
-}
-
-/// The failure of something that needs a quadratic.
-fn no_quadratic(what: &str, scheme: &str) -> Failure {
-    let with = SchemeKind::ALL.into_iter().filter(|scheme| scheme.has_quadratic());
-    let with: Vec<&str> = with.map(SchemeKind::name).collect();
-    Failure::Usage(format!(
-        "{what}: the scheme {scheme} has no quadratic; choose --scheme {}",
-        with.join(" or ")
-    ))
-}
-
 /// Runs `evenlight q`.
 pub fn run(args: &QArgs) -> Result<(), Failure> {
     let scheme = args.surface.scheme;
     if !scheme.has_quadratic() {
         return Err(no_quadratic("q", scheme.name()));
     }
-    let surface = input::read_surface(&args.surface)?;
+    let surface = surface::read_surface(&args.surface)?;
     let rows = rows(&surface);
     args.output.write(|out| match (args.json, args.sectors) {
         (false, false) => write!(out, "{}", table(&rows)),

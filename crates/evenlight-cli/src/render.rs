@@ -9,9 +9,10 @@ use evenlight::{SchemeKind, Surface, VertexId};
 use crate::cap::{self, CapRingsArg};
 use crate::error::Failure;
 use crate::input;
-use crate::options::{SurfaceArgs, parse_pair, parse_point, scheme_parser};
+use crate::options::{parse_pair, parse_point, scheme_parser};
 use crate::output::Target;
 use crate::progress::Progress;
+use crate::surface::{self, SurfaceArgs};
 
 /// Arguments of `evenlight render`.
 #[derive(Args, Debug)]
@@ -187,13 +188,13 @@ fn surfaces(args: &RenderArgs) -> Result<Vec<Surface>, Failure> {
     let build = |&scheme| -> Result<Surface, Failure> {
         let options = args.surface.rules.options_among(schemes, scheme);
         let options = args.surface.boundary.applied_to(options);
-        let mut surface = input::build(Arc::clone(&cage), options, source)?;
+        let mut surface = surface::build(Arc::clone(&cage), options, source)?;
         edits.apply(&mut surface)?;
         cap::close(&mut surface, kind, args.caps.rings.into())?;
         Ok(surface)
     };
     let surfaces = schemes.iter().map(build).collect::<Result<Vec<_>, _>>()?;
-    input::report_omitted(&surfaces[0], source)?;
+    surface::report_omitted(&surfaces[0], source)?;
     Ok(surfaces)
 }
 

@@ -35,8 +35,8 @@ pub struct SpectrumArgs {
     #[arg(long)]
     json: bool,
 
-    /// Folder for pictures of the eigenfunctions, made if it is not there: for each valence and each
-    /// degree s one file with the functions of eigenvalue lambda^s (guided schemes only)
+    /// Folder for pictures of the eigenfunctions, made if it is not there: for each valence and
+    /// each degree s one file with the functions of eigenvalue lambda^s (guided schemes only)
     #[arg(long, value_name = "DIR")]
     eigenfunctions: Option<PathBuf>,
 

@@ -1,9 +1,9 @@
-//! What the commands write stays the same byte for byte: patches, triangles and evaluations of every
-//! cage in `data/meshes`, of all schemes on some, and the files of `evenlight demo`.
+//! What the commands write stays the same byte for byte: patches, triangles and evaluations of
+//! every cage in `data/meshes`, of all schemes on some, and the files of `evenlight demo`.
 //!
-//! `data/golden/bytes.txt` has a line per file: a hash and the command. It was written by the program
-//! as it stood before topology and values were separated (commit fe5a6fc). A change that is meant to
-//! change bytes writes it anew, and says so in CHANGELOG.md:
+//! `data/golden/bytes.txt` has a line per file: a hash and the command. It was written by the
+//! program as it stood before topology and values were separated (commit fe5a6fc). A change that is
+//! meant to change bytes writes it anew, and says so in CHANGELOG.md:
 //!
 //! ```sh
 //! EVENLIGHT_WRITE_GOLDEN=1 cargo test --release -p evenlight-cli --test bytes

@@ -32,8 +32,9 @@
 //! u runs, and line s, along which v runs. A patch of bi-degree d has its coefficients b_ij in the
 //! order i (d + 1) + j, i along u.
 //!
-//! \[KP18-Guided\] K. Karciauskas, J. Peters: A New Class of Guided C2 Subdivision Surfaces Combining
-//! Good Shape with Nested Refinement. Computer Graphics Forum 37, 2018, doi 10.1111/cgf.13313.
+//! \[KP18-Guided\] K. Karciauskas, J. Peters: A New Class of Guided C2 Subdivision Surfaces
+//! Combining Good Shape with Nested Refinement. Computer Graphics Forum 37, 2018, doi
+//! 10.1111/cgf.13313.
 
 pub mod bb;
 pub mod cap;

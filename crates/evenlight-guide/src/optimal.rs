@@ -13,32 +13,36 @@
 //!   d' = p + D S q + e'                  S: q shrunk by lambda
 //! ```
 //!
-//! 1. **D, the nets of the quadratics** ([`eigennets`]). For each quadratic in the coordinates of the
-//!    characteristic map chi there are nets that refinement multiplies by lambda^2 exactly; D q is
-//!    the one whose ring is nearest to the quadratic itself. With q shrinking by S the surface of D q
-//!    has bounded curvature, whatever else the rules do.
-//! 2. **E, the energy of a ring** ([`energy`]). The integrals over the ring of the squared third and
-//!    second derivatives with respect to chi, and a little of e itself. The factor lambda^(-4l) puts
-//!    ring l in the scale where its quadratic does not shrink: a sum that is finite makes e die
-//!    faster than lambda^2.
-//! 3. **K** ([`regulator`]). The optimum solves a Riccati equation. Turning a sector and mirrors leave
-//!    everything alike, so a discrete Fourier transform over the sectors cuts the problem into blocks
-//!    of 12 nodes and 6 controls, real in coordinates that the mirror suggests ([`block`]).
-//! 4. **K that is local** ([`local`]). The optimal K reaches all sectors, faintly. Restricted to the
-//!    nodes that Quadratic-Attraction rules use, the best is found by iteration; it costs .1 % of J.
-//! 5. **q** ([`rules`]). The quadratic of a net is the one that leaves the least to do: it minimises
-//!    e^T P e, P being the cost-to-go of e.
+//! 1. **D, the nets of the quadratics** ([`eigennets`]). For each quadratic in the coordinates of
+//!    the characteristic map chi there are nets that refinement multiplies by lambda^2 exactly; D q
+//!    is the one whose ring is nearest to the quadratic itself. With q shrinking by S the surface
+//!    of D q has bounded curvature, whatever else the rules do.
+//! 2. **E, the energy of a ring** ([`energy`]). The integrals over the ring of the squared third
+//!    and second derivatives with respect to chi, and a little of e itself. The factor lambda^(-4l)
+//!    puts ring l in the scale where its quadratic does not shrink: a sum that is finite makes e
+//!    die faster than lambda^2.
+//! 3. **K** ([`regulator`]). The optimum solves a Riccati equation. Turning a sector and mirrors
+//!    leave everything alike, so a discrete Fourier transform over the sectors cuts the problem
+//!    into blocks of 12 nodes and 6 controls, real in coordinates that the mirror suggests
+//!    ([`block`]).
+//! 4. **K that is local** ([`local`]). The optimal K reaches all sectors, faintly. Restricted to
+//!    the nodes that Quadratic-Attraction rules use, the best is found by iteration; it costs .1 %
+//!    of J.
+//! 5. **q** ([`rules`]). The quadratic of a net is the one that leaves the least to do: it
+//!    minimises e^T P e, P being the cost-to-go of e.
 //!
-//! Three schemes come of it: **fair4**, with the local K and q as part of the state, in the layout of
-//! Quadratic-Attraction rules; **fair4d**, with the optimal K and q found anew in each step, in the
-//! layout of Evolving-Guide rules; and **fair3**, as fair4 for bi-3 splines on the half-step grid.
+//! Three schemes come of it: **fair4**, with the local K and q as part of the state, in the layout
+//! of Quadratic-Attraction rules; **fair4d**, with the optimal K and q found anew in each step, in
+//! the layout of Evolving-Guide rules; and **fair3**, as fair4 for bi-3 splines on the half-step
+//! grid.
 //!
 //! The regulator with a discount and a cross term: B. D. O. Anderson, J. B. Moore, Optimal Control:
-//! Linear Quadratic Methods, Prentice-Hall 1990. The doubling of the Riccati equation: E. K.-W. Chu,
-//! H.-Y. Fan, W.-W. Lin, C.-S. Wang, Structure-preserving algorithms for periodic discrete-time
-//! algebraic Riccati equations, Int. J. Control 77, 2004. The iteration for K of a given structure:
-//! W. S. Levine, M. Athans, On the determination of the optimal constant output feedback gains, IEEE
-//! Trans. Automatic Control 15, 1970, in the form of D. Moerder, A. Calise, ibid. 30, 1985.
+//! Linear Quadratic Methods, Prentice-Hall 1990. The doubling of the Riccati equation: E. K.-W.
+//! Chu, H.-Y. Fan, W.-W. Lin, C.-S. Wang, Structure-preserving algorithms for periodic
+//! discrete-time algebraic Riccati equations, Int. J. Control 77, 2004. The iteration for K of a
+//! given structure: W. S. Levine, M. Athans, On the determination of the optimal constant output
+//! feedback gains, IEEE Trans. Automatic Control 15, 1970, in the form of D. Moerder, A. Calise,
+//! ibid. 30, 1985.
 
 pub mod block;
 pub mod eigennets;

@@ -1,4 +1,5 @@
-//! Guided surfaces against those of Catmull-Clark subdivision over the same nets: how fair they are.
+//! Guided surfaces against those of Catmull-Clark subdivision over the same nets: how fair they
+//! are.
 
 use evenlight_guide::guided::characteristic::{CharacteristicRing, SQUARES};
 use evenlight_guide::guided::fairness::ring_energy;

@@ -202,8 +202,8 @@ fn what_is_not_quadratic_dies_faster_than_lambda_squared() {
     }
 }
 
-/// P solves the Riccati equation: the cost of the optimal gain is P again, and no other gain that is
-/// tried costs less.
+/// P solves the Riccati equation: the cost of the optimal gain is P again, and no other gain that
+/// is tried costs less.
 #[test]
 fn the_optimal_gain_costs_what_the_riccati_equation_says() {
     for n in [3, 6, 9] {

@@ -158,7 +158,7 @@ pub const MAX_RINGS: usize = 4096;
 
 /// Rings that are kept once they were asked for. A parameter closer to the centre than
 /// 2^-64 (sigma^64) is made of the last of them anew, in time proportional to its depth.
-const CACHED_RINGS: usize = 64;
+pub(crate) const CACHED_RINGS: usize = 64;
 
 /// Tangents shorter than this part of the net, or closer to parallel, are none: rounding leaves
 /// 1e-16 where they should vanish, and a sound cage stays far above.
@@ -327,6 +327,15 @@ impl<const N: usize> Rings<N> {
         let cached = [const { OnceLock::new() }; CACHED_RINGS];
         let normal = frame.normal();
         Self { rules, center, normal, quadratic, frame, first, cached }
+    }
+
+    /// The rings of a net relative to its limit point, whose coordinates are N numbers that have
+    /// nothing to do with each other: in no tangent plane, so that all shrink by lambda.
+    pub(crate) fn over_numbers(first: Vec<[f64; N]>, rules: Arc<ValenceRules>) -> Self {
+        let frame = Frame::WORLD;
+        let cached = [const { OnceLock::new() }; CACHED_RINGS];
+        let (center, normal) = ([0.0; N], [f64::NAN; 3]);
+        Self { rules, center, normal, quadratic: None, frame, first, cached }
     }
 
     /// The number of sectors: the valence, or of a fan the number of its faces.
@@ -642,6 +651,16 @@ impl<const N: usize> Rings<N> {
 }
 
 impl<const N: usize> Frame<N> {
+    /// The axes of space, without a plane.
+    const WORLD: Self = {
+        let (mut axes, mut k) = ([[0.0; N]; N], 0);
+        while k < N {
+            axes[k][k] = 1.0;
+            k += 1;
+        }
+        Self { axes, has_plane: false }
+    };
+
     /// The frame of the limit tangent plane of a net.
     fn new(subdominant: &Subdominant, net: &[[f64; N]]) -> Self {
         let [a, b] = subdominant.tangents(net).map(in_space);
@@ -649,10 +668,7 @@ impl<const N: usize> Frame<N> {
         let longer = dot(a, a).max(dot(b, b));
         let size_sq = net.iter().map(|&p| in_space(p)).map(|p| dot(p, p)).fold(0.0, f64::max);
         let has_plane = longer > FLATTEST * FLATTEST * size_sq && norm(normal) > FLATTEST * longer;
-        let mut axes = [[0.0; N]; N];
-        for (k, axis) in axes.iter_mut().enumerate() {
-            axis[k] = 1.0;
-        }
+        let mut axes = Self::WORLD.axes;
         if has_plane {
             let normal = unit(normal);
             let first = unit(if dot(a, a) > dot(b, b) { a } else { b });
@@ -724,7 +740,7 @@ fn frame_shape<const N: usize>(jet: &Jet<N>, sigma: f64, zeta: f64) -> Shape {
 /// The ring of a place (a,b) of a sector other than its centre, and the place in it, as if it were
 /// ring 0.
 #[inline]
-fn in_ring([a, b]: [f64; 2], sigma: f64) -> (usize, [f64; 2]) {
+pub(crate) fn in_ring([a, b]: [f64; 2], sigma: f64) -> (usize, [f64; 2]) {
     let largest = a.max(b);
     if sigma != 0.5 || largest < f64::MIN_POSITIVE {
         let ring = ring_of(largest, sigma);

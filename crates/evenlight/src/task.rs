@@ -1,6 +1,7 @@
 //! How work is done: on how many threads, and watched by whom.
 //!
-//! Long work of this library, on whatever it is done, takes both from the [`Task`] in which it runs:
+//! Long work of this library, on whatever it is done, takes both from the [`Task`] in which it
+//! runs:
 //!
 //! ```text
 //!   Task::new().threads(2).watch(bar).run(|| tessellate(&surface, 16))
@@ -75,8 +76,8 @@ impl Task {
         Self { threads: Some(NonZero::new(count).unwrap_or_else(all_threads)), ..self }
     }
 
-    /// Calls `watch` at the beginning and after every step; `Break` cancels the work, which then ends
-    /// with an error as soon as it can.
+    /// Calls `watch` at the beginning and after every step; `Break` cancels the work, which then
+    /// ends with an error as soon as it can.
     #[must_use]
     pub fn watch(
         self,

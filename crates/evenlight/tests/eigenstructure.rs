@@ -128,9 +128,9 @@ fn kernel(matrix: &DMatrix<f64>) -> (DMatrix<f64>, [f64; 2]) {
     (solutions.qr().q(), gap)
 }
 
-/// The eigenvectors span all solutions of the conditions, and the map P_(l-1) -> P_l, de Casteljau's
-/// algorithm at lambda in every piece, is in their basis the diagonal matrix of lambda^s: the whole
-/// spectrum, and no Jordan blocks. At both contractions.
+/// The eigenvectors span all solutions of the conditions, and the map P_(l-1) -> P_l, de
+/// Casteljau's algorithm at lambda in every piece, is in their basis the diagonal matrix of
+/// lambda^s: the whole spectrum, and no Jordan blocks. At both contractions.
 #[test]
 fn the_subdivision_of_guides_is_diagonal() {
     for n in VALENCES {

@@ -280,8 +280,8 @@ fn curvature_at_depth_follows_the_spectrum() {
     }
 }
 
-/// With a quadratic or a guide the rings tend to copies of one another: curvature in a fixed direction has a
-/// limit, and hundreds of rings later it is still that.
+/// With a quadratic or a guide the rings tend to copies of one another: curvature in a fixed
+/// direction has a limit, and hundreds of rings later it is still that.
 #[test]
 fn bounded_curvature_has_a_limit_in_every_direction() {
     for scheme in SchemeKind::ALL.into_iter().filter(|s| s.has_center_curvature()) {

@@ -15,6 +15,7 @@ mod fuzz;
 use std::path::Path;
 
 use evenlight::Mesh;
+use evenlight::io::load::Format;
 use evenlight::io::load::LoadError;
 use evenlight::io::obj;
 use fuzz::{Random, mutated, noise};
@@ -186,7 +187,7 @@ fn case(seed: u64, good: &[Vec<u8>]) -> Vec<u8> {
 
 /// Reads and checks `bytes`; whether they are a cage.
 fn hold_to_the_contract(bytes: &[u8]) -> bool {
-    match obj::read_cage(bytes) {
+    match Format::Obj.read_cage(bytes) {
         Ok((cage, notices)) => {
             assert!(notices.iter().all(|notice| !notice.to_string().is_empty()));
             let mesh = Mesh {

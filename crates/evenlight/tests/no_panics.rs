@@ -202,7 +202,7 @@ fn surfaces() {
 
 #[test]
 fn functions_of_guided_surfaces() {
-    use basis::{Eigenfunctions, HomogeneousGuide, RefinableSpace, SparseMatrix};
+    use basis::{Eigenfunctions, HomogeneousGuide, RefinableSpace};
     for n in [0, 2, 1025, HUGE] {
         assert!(HomogeneousGuide::all(n, 3).is_none() && basis::multiplicity(n, HUGE).is_none());
         assert!(Eigenfunctions::new(SchemeKind::Guided5, n).is_none());
@@ -245,13 +245,49 @@ fn functions_of_guided_surfaces() {
     assert!(space.eval_sum(&values, HUGE, 0.5, 0.5).is_none());
     assert!(PLACES.iter().all(|&[a, b]| space.eval_sum(&values, 0, a, b).is_none()));
     assert!(PLACES.iter().all(|&[a, b]| space.eval(0, 0, a, b).is_none()));
+}
 
-    assert!(SparseMatrix::from_rows(0, [vec![(0, 1.0)]]).is_none());
-    assert!(SparseMatrix::from_rows(HUGE, [vec![(HUGE, 1.0)]]).is_none());
-    let matrix = SparseMatrix::from_rows(2, [vec![(1, 1.0)]]).unwrap();
+#[test]
+fn stencils() {
+    use evenlight::stencil::{StencilBuilder, Stencils};
+    assert!(Stencils::from_rows(0, [vec![(0, 1.0)]]).is_none());
+    assert!(Stencils::from_rows(HUGE, [vec![(HUGE, 1.0)]]).is_none());
+    let matrix = Stencils::from_rows(2, [vec![(1, 1.0)]]).unwrap();
     assert!(matrix.row(1).is_none() && matrix.row(HUGE).is_none());
-    assert!(matrix.apply(&[]).is_none() && matrix.apply_to_points(&[[0.0; 3]]).is_none());
-    assert!(matrix.times(&matrix).is_none());
+    assert!(matrix.apply::<3>(&[]).is_err() && matrix.apply_to_numbers(&[0.0]).is_err());
+    assert!(matrix.apply_to(&[[0.0]; 2], &mut []).is_err() && matrix.times(&matrix).is_none());
+    let surface = surface(SchemeKind::Qas4);
+    let builder = StencilBuilder::of_surface(&surface).unwrap();
+    assert!(builder.refined(HUGE).is_err());
+    assert!(StencilBuilder::of_primvar(&surface, HUGE).is_err());
+    let place = surface.patch_places(1).next().unwrap();
+    let patches = builder.patches(&[place]).unwrap();
+    assert!(patches.rows(1).is_none() && patches.degree(HUGE).is_none());
+    assert!(patches.rows(HUGE).is_none());
+}
+
+#[test]
+fn complexes() {
+    use evenlight::complex::{PatchComplex, PatchEdgeId, PatchId, PatchVertexId};
+    let surface = surface(SchemeKind::Qas4);
+    assert!(PatchComplex::of(&surface, HUGE).is_err());
+    let complex = PatchComplex::of(&surface, 1).unwrap();
+    let [patch, edge, vertex] = [u32::MAX; 3];
+    let (patch, edge, vertex) = (PatchId(patch), PatchEdgeId(edge), PatchVertexId(vertex));
+    assert!(complex.place(patch).is_none() && complex.patch(&surface, patch).is_none());
+    assert!(complex.edge(edge).is_none() && complex.border(&surface, edge).is_none());
+    assert!(complex.vertex(vertex).is_none() && complex.edges_at(vertex).is_empty());
+    assert!(complex.edges_of_side(patch, 0).is_empty() && complex.edges_of_patch(patch).is_empty());
+    assert!(
+        complex.edges_of_side(PatchId(0), 4).is_empty()
+            && complex.neighbours(patch).next().is_none()
+    );
+    assert!(complex.border_of_use(&surface, PatchEdgeId(0), HUGE).is_none());
+    let border = complex.border(&surface, PatchEdgeId(0)).unwrap();
+    assert!(border.raised(7).is_none() && border.raised(HUGE).is_none());
+    assert!(border.point(f64::NAN)[0].is_nan());
+    assert!(complex.locate(QuadId(u32::MAX), 0.5, 0.5).is_none());
+    assert!(complex.locate(QuadId(0), f64::NAN, 0.5).is_none());
 }
 
 #[test]

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use evenlight::Mesh;
+use evenlight::io::load::Format;
 use evenlight::io::load::Notice;
 use evenlight::io::obj::{self, Obj};
 use evenlight::mesh::{
@@ -193,7 +194,7 @@ fn colours_are_kept_if_all_vertices_have_one() {
     assert_eq!((colors.name.as_str(), colors.width), ("color", 3));
     assert_eq!(colors.values, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 0.25, 1.0]);
     let some = text.replace(" 0 1 0\n", "\n");
-    let (cage, notices) = obj::read_cage(some.as_bytes()).unwrap();
+    let (cage, notices) = Format::Obj.read_cage(some.as_bytes()).unwrap();
     assert!(cage.primvars().is_empty());
     let remark = "only 2 of 3 vertices have a colour: colours are ignored";
     assert_eq!(notices, [Notice::Remark(remark.to_owned())]);
@@ -202,7 +203,7 @@ fn colours_are_kept_if_all_vertices_have_one() {
 #[test]
 fn a_cage_has_what_its_file_says() {
     let text = TWO_QUADS.to_owned() + "t crease 2/1/0 1 4 2\nt interpolateboundary 1/0/0 0\n";
-    let (cage, _) = obj::read_cage(text.as_bytes()).unwrap();
+    let (cage, _) = Format::Obj.read_cage(text.as_bytes()).unwrap();
     assert_eq!(cage.tags().creases, [crease(1, 4, 2.0)]);
     assert_eq!(cage.tags().boundary, BoundaryRule::None);
 }

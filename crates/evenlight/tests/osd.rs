@@ -6,8 +6,8 @@
 //! but for caps at irregular vertices, of a side of 2^-10 of a quad. Of our points only the corners
 //! of quads can lie in caps. There derivatives are those of the cap and are left out; the point is
 //! that of the limit surface but at darts and single faces with smooth corners, where it tends to
-//! ours with the depth (star5_dart, first coordinate: -8.008e-4, -8.069e-4, -8.101e-4 for the depths
-//! 8, 9, 10, so -8.137e-4 in the limit, which is ours).
+//! ours with the depth (star5_dart, first coordinate: -8.008e-4, -8.069e-4, -8.101e-4 for the
+//! depths 8, 9, 10, so -8.137e-4 in the limit, which is ours).
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its data fails")]
 
 mod common;
@@ -162,16 +162,16 @@ fn is_corner(u: f64, v: f64) -> bool {
     [u, v].iter().all(|&x| x == 0.0 || x == 1.0)
 }
 
-/// Whether (u,v) of a quad is an extraordinary point, so that OpenSubdiv has a cap there. Corners that
-/// are regular on a boundary, on a crease or as corners are none.
+/// Whether (u,v) of a quad is an extraordinary point, so that OpenSubdiv has a cap there. Corners
+/// that are regular on a boundary, on a crease or as corners are none.
 fn is_extraordinary(surface: &Surface, quad: QuadId, at: [f64; 2]) -> bool {
     let points = surface.extraordinary_points().iter();
     let mut sectors = points.flat_map(|point| &point.sectors);
     sectors.any(|sector| sector.quad == quad && sector.center == at)
 }
 
-/// Whether (u,v) is a corner of the quad that may be irregular in a channel: not the regular vertex of
-/// a smooth region.
+/// Whether (u,v) is a corner of the quad that may be irregular in a channel: not the regular vertex
+/// of a smooth region.
 fn may_be_irregular(
     surface: &Surface,
     face: u32,

@@ -11,7 +11,7 @@ use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions, io};
 fn load(name: &str, scheme: SchemeKind) -> Surface {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes/obstacle").join(name);
     let bytes = std::fs::read(path).expect("the cage is in data/meshes");
-    let (cage, _) = io::obj::read_cage(&bytes).expect("the cage is in order");
+    let (cage, _) = io::load::Format::Obj.read_cage(&bytes).expect("the cage is in order");
     let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
     Surface::build(cage, options).expect("there are rules for valences up to 16")
 }

@@ -24,12 +24,12 @@ const VALENCES: [usize; 13] = [3, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16];
 
 /// The valences of the obstacle course, and per valence rho and the width of the band of H.
 ///
-/// rho is the larger of lambda and of the largest eigenvalue of M_d over lambda^2 (tests/spectrum.rs):
-/// what the curvature of ring l owes to the control net, not to q, is of the size rho^l. The
-/// widths, for QAS3 and QAS4, are parts of sqrt(k1^2 + k2^2) of q, measured over the obstacle
-/// course and rounded up: even where only q is left, a ring of bi-3 or bi-4 patches has not the
-/// curvature of q in every direction. (Where lines meet at other angles than on the obstacle
-/// course, as on our blobs, the band is up to twice as wide.)
+/// rho is the larger of lambda and of the largest eigenvalue of M_d over lambda^2
+/// (tests/spectrum.rs): what the curvature of ring l owes to the control net, not to q, is of the
+/// size rho^l. The widths, for QAS3 and QAS4, are parts of sqrt(k1^2 + k2^2) of q, measured over
+/// the obstacle course and rounded up: even where only q is left, a ring of bi-3 or bi-4 patches
+/// has not the curvature of q in every direction. (Where lines meet at other angles than on the
+/// obstacle course, as on our blobs, the band is up to twice as wide.)
 const BANDS: [(usize, f64, [f64; 2]); 7] = [
     (3, 0.9383, [0.055, 0.031]),
     (5, 0.5933, [0.046, 0.005]),
@@ -431,7 +431,7 @@ fn rings_join_c2_with_each_other_and_with_the_surround_whatever_q() {
         for scheme in SCHEMES {
             let mut surface = common::surface(&common::cage(name), scheme);
             for point in 0..surface.extraordinary_points().len() {
-                let jumps = continuity(&surface, 6, 3).all;
+                let jumps = continuity(&surface, 6, 3).unwrap().all;
                 assert!(jumps.parametric <= 1e-11, "{name}: {jumps:?}");
                 let q = *surface.rings(point).unwrap().quadratic().unwrap();
                 let wider =
@@ -439,7 +439,7 @@ fn rings_join_c2_with_each_other_and_with_the_surround_whatever_q() {
                 assert!(surface.set_quadratic(point, &wider));
                 assert_eq!(surface.rings(point).unwrap().center(), wider.center());
             }
-            let jumps = continuity(&surface, 6, 3).all;
+            let jumps = continuity(&surface, 6, 3).unwrap().all;
             assert!(jumps.parametric <= 1e-11, "{name}, changed: {jumps:?}");
         }
     }

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use evenlight::io::load::Format;
 use evenlight::io::load::Notice;
 use evenlight::io::obj::{self, Obj, UnknownTag};
 use evenlight::{Cage, FaceId, Mesh, VertexId};
@@ -34,7 +35,7 @@ fn read_error(text: impl AsRef<[u8]>) -> String {
 }
 
 fn load_error(text: impl AsRef<[u8]>) -> String {
-    obj::read_cage(text.as_ref()).unwrap_err().to_string()
+    Format::Obj.read_cage(text.as_ref()).unwrap_err().to_string()
 }
 
 fn written(mesh: &Mesh) -> Vec<u8> {
@@ -247,7 +248,7 @@ fn unknown_tags_are_counted_and_reported_once() {
 #[test]
 fn what_is_no_part_of_a_cage_is_told_in_one_sentence() {
     let text = HOUSE.to_owned() + "g a\nf 1//1 2 3 4\nusemtl b\nf 4 3 5\ng\n";
-    let (_, notices) = obj::read_cage(text.as_bytes()).unwrap();
+    let (_, notices) = Format::Obj.read_cage(text.as_bytes()).unwrap();
     let shown: Vec<String> = notices.iter().map(Notice::to_string).collect();
     let expected = "line 9 and 4 more: groups, materials and normals (g, usemtl, vn) are not kept";
     assert_eq!(shown, [expected]);
@@ -258,8 +259,9 @@ fn what_is_no_part_of_a_cage_is_told_in_one_sentence() {
 
 #[test]
 fn notices_tell_what_was_ignored_and_vertices_keep_their_numbers() {
-    let (cage, notices) =
-        obj::read_cage(b"v 9 9 9\nv 0 0 0\nv 1 0 0\nx 1\nv 0 1 0\nv 8 8 8\nf 2 3 4\n").unwrap();
+    let (cage, notices) = Format::Obj
+        .read_cage(b"v 9 9 9\nv 0 0 0\nv 1 0 0\nx 1\nv 0 1 0\nv 8 8 8\nf 2 3 4\n")
+        .unwrap();
     let shown: Vec<String> = notices.iter().map(Notice::to_string).collect();
     let expected = [
         "line 4 is ignored: the tag `x` is not supported",
@@ -339,7 +341,7 @@ fn data_files() -> Vec<PathBuf> {
 }
 
 fn load(path: &Path) -> (Cage, Vec<Notice>) {
-    let loaded = obj::read_cage(&std::fs::read(path).unwrap());
+    let loaded = Format::Obj.read_cage(&std::fs::read(path).unwrap());
     loaded.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 

@@ -154,7 +154,8 @@ fn a_ring_has_no_other_splines() {
                 let (one, two) = (&end[o], &start[o]);
                 // Patches are sigma and 1 - sigma wide.
                 let [low, high] = [sigma, 1.0 - sigma].map(|width| width.powi(-(o as i32)));
-                // Square 1 below 0, square 2 left of 0, square 2 before square 1 of the next sector.
+                // Square 1 below 0, square 2 left of 0, square 2 before square 1 of the next
+                // sector.
                 condition(&[
                     (&|j| number(s, 1, k, j), one, low),
                     (&|j| number(s, 0, k, j), two, -high),
@@ -209,7 +210,7 @@ fn every_function_of_a_space_is_in_the_next() {
         let mut values = scattered(space.dim());
         for _ in 0..3 {
             let (next, refined) =
-                (space.refined().unwrap(), space.refinement().apply(&values).unwrap());
+                (space.refined().unwrap(), space.refinement().apply_to_numbers(&values).unwrap());
             for (ring, s, which) in (0..5).flat_map(|l| [0, 1, 2].map(|w| (l, w % 3, w))) {
                 let coarse = space.coefs_of_sum(&values, ring, s, which).unwrap();
                 let fine = next.coefs_of_sum(&refined, ring, s, which).unwrap();
@@ -292,7 +293,7 @@ fn the_functions_of_rings_are_a_partition_of_unity_beside_the_guide() {
                 }
             }
         }
-        let fine = space.refinement().apply(&constant).unwrap();
+        let fine = space.refinement().apply_to_numbers(&constant).unwrap();
         let exact = space.refined().unwrap().constant();
         assert!(fine.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{}", name(&space));
     }
@@ -307,9 +308,8 @@ fn eigenfunctions_are_in_every_space() {
         let (refinement, next) = (space.refinement(), space.refined().unwrap());
         for k in 0..functions.len() {
             let values = space.eigenfunction(k).unwrap();
-            for (a, b) in
-                refinement.apply(&values).unwrap().iter().zip(next.eigenfunction(k).unwrap())
-            {
+            let refined = refinement.apply_to_numbers(&values).unwrap();
+            for (a, b) in refined.iter().zip(next.eigenfunction(k).unwrap()) {
                 assert!((a - b).abs() < 1e-12, "{} eigenfunction {k}: {a} {b}", name(&space));
             }
             for (ring, s, which) in (0..4).flat_map(|l| [0, 1, 2].map(|w| (l, w, w))) {
@@ -463,7 +463,7 @@ fn the_surface_of_a_net_is_in_every_space() {
             net.sectors.iter().flatten().copied().chain([net.center]).collect();
         for (kind, name) in SCHEMES.into_iter().zip(["bi5", "bi6"]) {
             let space = RefinableSpace::new(kind, n, m).unwrap();
-            let values = space.cnet_matrix().apply_to_points(&nodes).unwrap();
+            let values = space.cnet_matrix().apply(&nodes).unwrap();
             let rings = Rings::from_cnet(&net, kind, RuleSet::Generated).unwrap();
             for k in 0..3 {
                 let values: Vec<f64> = values.iter().map(|p| p[k]).collect();

@@ -147,8 +147,8 @@ fn geometric_mean(values: &[f64]) -> f64 {
     (values.iter().map(|x| x.ln()).sum::<f64>() / values.len() as f64).exp()
 }
 
-/// The first eight nets at valences 3 and 5 [report of the reference program]: .20 to .99, geometric
-/// mean .60, never worse than Catmull-Clark.
+/// The first eight nets at valences 3 and 5 [report of the reference program]: .20 to .99,
+/// geometric mean .60, never worse than Catmull-Clark.
 #[test]
 fn evolving_guide_has_less_energy_than_catmull_clark_on_the_reference_nets() {
     let of = |n: usize| ratios(n, SchemeKind::EvolvingGuide, ENERGY_RINGS).into_iter().take(8);

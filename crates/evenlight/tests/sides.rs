@@ -6,6 +6,7 @@ mod common;
 
 use std::collections::{HashMap, HashSet};
 
+use evenlight::io::load::Format;
 use evenlight::io::{glb, obj, obj_out, ply, ply_out};
 use evenlight::mesh::{Crease, FaceVaryingRule, INFINITELY_SHARP, Interpolation, Mesh, Primvar};
 use evenlight::point::{cross, dot, norm, sub, unit};
@@ -82,8 +83,8 @@ fn smooth_cages_have_one_side_per_vertex() {
     }
 }
 
-/// Boundaries, holes, corners and semi-sharp edges fold nothing; and there is no side that no triangle
-/// has.
+/// Boundaries, holes, corners and semi-sharp edges fold nothing; and there is no side that no
+/// triangle has.
 #[test]
 fn there_are_no_more_sides_than_infinitely_sharp_edges_make() {
     let mut num_folded = 0;
@@ -123,8 +124,8 @@ fn every_corner_has_the_normal_of_its_own_quad() {
     }
 }
 
-/// Two triangles at an edge have the same sides at its ends, but along infinitely sharp edges of the
-/// cage, where they have different sides, but at darts.
+/// Two triangles at an edge have the same sides at its ends, but along infinitely sharp edges of
+/// the cage, where they have different sides, but at darts.
 #[test]
 fn sides_change_at_sharp_edges_only() {
     let mut num_folds = 0;
@@ -164,8 +165,8 @@ fn lies_on_sharp_edge(surface: &Surface, mesh: &TriangleMesh, edge: [u32; 2], t:
     surface.is_infinitely_sharp(topology.half_edge_at(face, side).unwrap().id())
 }
 
-/// A wheel of `2 f` quads around the origin, folded along the sharp y axis: on the left in the plane
-/// z = x, on the right in z = -x.
+/// A wheel of `2 f` quads around the origin, folded along the sharp y axis: on the left in the
+/// plane z = x, on the right in z = -x.
 fn folded_wheel(f: u32) -> Mesh {
     let num_rim = 4 * f;
     let rim = |k: u32| {
@@ -240,8 +241,8 @@ fn texture_coordinates_come_first_by_name_and_colours_by_name() {
     assert_eq!((color.name.as_str(), color.width), ("displayColor", 3));
 }
 
-/// Split vertices are all different, and their triangles have at every corner the side and the values
-/// that the mesh has there.
+/// Split vertices are all different, and their triangles have at every corner the side and the
+/// values that the mesh has there.
 #[test]
 fn split_vertices_have_one_value_of_everything() {
     let (mesh, CornerChannels { uv_sets, color }) = painted();
@@ -504,7 +505,7 @@ fn a_seam_of_a_quarter_beside_a_distant_island_remains() {
                 vt 1.25 0\nvt 2.25 0\nvt 2.25 1\nvt 1.25 1\n\
                 vt 3e8 0\nvt 300000001 0\nvt 300000001 1\nvt 3e8 1\n\
                 f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/7 5/8\nf 7/9 8/10 9/11 10/12\n";
-    let (cage, _) = obj::read_cage(text.as_bytes()).unwrap();
+    let (cage, _) = Format::Obj.read_cage(text.as_bytes()).unwrap();
     let surface = Surface::build(cage, SurfaceOptions::default()).unwrap();
     let mesh = tessellate(&surface, 4).unwrap();
     let channels = mesh.corner_channels(&surface);

@@ -129,8 +129,8 @@ fn quadratic_attraction_has_bounded_curvature_at_every_valence() {
     }
 }
 
-/// The specification of our own schemes: what is not q dies faster than .80 lambda^2 (fair3: .81), so
-/// that curvature is bounded, and with lambda the characteristic map is Catmull-Clark's.
+/// The specification of our own schemes: what is not q dies faster than .80 lambda^2 (fair3: .81),
+/// so that curvature is bounded, and with lambda the characteristic map is Catmull-Clark's.
 #[test]
 fn fair_schemes_have_bounded_curvature_at_every_valence() {
     let fair4 = [
@@ -254,8 +254,9 @@ fn characteristic_maps_are_proved_to_be_injective() {
     }
 }
 
-/// [KP23-QAS, Section 8] gives, for n = 3 to 10 and the printed rules, 84 to 95 % for Catmull-Clark,
-/// 72 to 91 % for QAS4, and 43 to 46 % for PAS, of which our `eg` is the printed one.
+/// [KP23-QAS, Section 8] gives, for n = 3 to 10 and the printed rules, 84 to 95 % for
+/// Catmull-Clark, 72 to 91 % for QAS4, and 43 to 46 % for PAS, of which our `eg` is the printed
+/// one.
 #[test]
 fn matrices_are_as_sparse_as_the_paper_says() {
     let expected = [

@@ -4,12 +4,12 @@
 
 mod common;
 
-use evenlight::SchemeKind;
 use evenlight::io::{bv, glb, obj_out, ply_out, stl};
 use evenlight::mesh::Mesh;
 use evenlight::patch::Patch;
-use evenlight::surface::{PlacedPatch, QuadId, Role};
+use evenlight::surface::{PlacedPatch, Role};
 use evenlight::tessellate::TriangleMesh;
+use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions};
 
 /// A tetrahedron with a vertex in each format's dark corners: no curvature, no normal.
 fn tetrahedron() -> TriangleMesh {
@@ -185,15 +185,13 @@ fn glb_refuses_what_the_format_cannot_hold() {
 
 /// A bilinear patch at height `z`.
 fn placed(role: Role, z: f64) -> PlacedPatch {
+    let square = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]])).unwrap();
+    let surface = Surface::build(cage, SurfaceOptions::default()).unwrap();
+    let mut place = surface.patch_places(0).next().unwrap();
+    place.role = role;
     let coefs = vec![[0.0, 0.0, z], [0.0, 1.0, z], [1.0, 0.0, z], [1.0, 1.0, z]];
-    PlacedPatch {
-        role,
-        quad: QuadId(0),
-        domain: [[0.0, 1.0]; 2],
-        point: None,
-        sector: None,
-        patch: Patch::new([1, 1], coefs).unwrap(),
-    }
+    PlacedPatch { place, patch: Patch::new([1, 1], coefs).unwrap() }
 }
 
 #[test]
@@ -233,11 +231,7 @@ fn bv_gives_back_every_patch_to_the_last_bit() {
     let groups = bv::read(&text).unwrap();
     let mut num_patches = 0;
     for group in &groups {
-        let is_of_group = |p: &PlacedPatch| match p.role {
-            Role::Regular => group.name == "regular",
-            Role::Ring(k) => group.name == format!("ring-{}", k + 1),
-            Role::Cap => group.name == "cap",
-        };
+        let is_of_group = |p: &PlacedPatch| group.name == p.place.role.to_string();
         let patches: Vec<Patch> = surface.patches(4).filter(is_of_group).map(|p| p.patch).collect();
         assert_eq!(group.patches, patches, "{}", group.name);
         num_patches += patches.len();

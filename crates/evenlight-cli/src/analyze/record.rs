@@ -1,8 +1,9 @@
 //! The analysis as JSON. What does not exist (a range of nothing, a ratio to zero) is `null`.
 
-use evenlight::analyse::caps::{CapReport, Defect};
+use evenlight::analyse::caps::CapReport;
 use evenlight::analyse::continuity::Jumps;
 use evenlight::analyse::curvature::{Range, RingCurvature};
+use evenlight::analyse::defect::Defect;
 use serde::Serialize;
 
 use super::{Analysis, Point, growth};
@@ -192,7 +193,7 @@ impl From<Range> for RangeRecord {
 
 impl From<Jumps> for JumpRecord {
     fn from(jumps: Jumps) -> Self {
-        let Jumps { position, tangent_plane, curvature, parametric } = jumps;
+        let Jumps { defect: Defect { position, tangent_plane, curvature }, parametric } = jumps;
         Self { position, tangent_plane, curvature, parametric }
     }
 }

@@ -13,6 +13,7 @@ use serde_json::json;
 use crate::analyze::Analysis;
 use crate::error::Failure;
 use crate::input::{self, Source};
+use crate::surface;
 
 /// The schemes that are compared.
 pub const SCHEMES: [SchemeKind; 3] =
@@ -78,8 +79,8 @@ impl Subject {
         let cage = input::read_cage(&source.clone().into())?;
         let analyse = |scheme| -> Result<Analysis, Failure> {
             let options = SurfaceOptions { scheme, ..SurfaceOptions::default() };
-            let surface = input::build(Arc::clone(&cage), options, source)?;
-            Ok(Analysis::of(surface, RINGS))
+            let surface = surface::build(Arc::clone(&cage), options, source)?;
+            Analysis::of(surface, RINGS)
         };
         let [cc, eg, qas4] = SCHEMES.map(analyse);
         let analyses = [cc?, eg?, qas4?];
@@ -170,7 +171,8 @@ fn at(sector: &Sector, [a, b]: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| sector.center[k] + a * sector.along[0][k] + b * sector.along[1][k])
 }
 
-/// The magnification at which the sectors around a point, by its index, fill the picture, in halves.
+/// The magnification at which the sectors around a point, by its index, fill the picture, in
+/// halves.
 fn zoom(surface: &Surface, point: usize) -> f64 {
     let center = surface.rings(point).map_or([0.0; 3], Rings::center);
     let point = &surface.extraordinary_points()[point];

@@ -53,12 +53,13 @@ use super::EgTable;"
             ),
             Self::Fair4d => format!(
                 "\
-// The refinement rules of fair4d, valence {valence}, in the layout of Evolving-Guide rules, derived by
+// The refinement rules of fair4d, valence {valence}, in the layout of Evolving-Guide rules, \
+derived by
 // the crate `evenlight-guide`, module `optimal`: numerators over 10^18. A row holds the weights of
 // d_00 d_10 d_20 d_30, d_01 d_11 d_21 d_31, d_02 d_12 d_22 d_32 of sector s + r, r = 0, 1, ... from
 // the top; rows that a mirror symmetry repeats are left out.
 
-use crate::scheme::tables::eg::EgTable;"
+use crate::scheme::tables::EgTable;"
             ),
         }
     }

@@ -52,7 +52,8 @@ impl QasTitle {
             Self::QuadraticAttraction => {
                 return format!(
                     "\
-// The Quadratic-Attraction refinement rules of valence {valence} [KP23-QAS, eq. 6, 7 and S2], derived by
+// The Quadratic-Attraction refinement rules of valence {valence} [KP23-QAS, eq. 6, 7 and S2], \
+derived by
 // the crate `evenlight-guide`: numerators over 10^18, each the nearest integer to the exact weight.
 {LAYOUT}
 use super::QasTable;"
@@ -66,7 +67,7 @@ use super::QasTable;"
 // The refinement rules of {splines}, valence {valence}, in the layout of Quadratic-Attraction
 // rules, derived by the crate `evenlight-guide`, module `optimal`: numerators over 10^18.
 {LAYOUT}
-use crate::scheme::tables::qas::QasTable;"
+use crate::scheme::tables::QasTable;"
         )
     }
 

@@ -19,8 +19,8 @@
 //!   H is contained in   sigma H  +  {sigma}  +  sigma + (1 - sigma) Z.
 //! ```
 //!
-//! So a single knot is sigma; of two, the smaller is sigma times the larger, which comes from Z. For
-//! sigma = 1/2 they are 1/2, and 1/3 and 2/3 ([`knots`]).
+//! So a single knot is sigma; of two, the smaller is sigma times the larger, which comes from Z.
+//! For sigma = 1/2 they are 1/2, and 1/3 and 2/3 ([`knots`]).
 //!
 //! DIFFERENCE: the paper gives no formulas; these splines are the only ones with as many degrees of
 //! freedom as there are data.

@@ -7,18 +7,18 @@
 //!   d_k of sector s = w^(f s + f/2) c_k    for nodes k on line s, half a turn further
 //! ```
 //!
-//! keep this form with frequency f under every map here; a map has one complex block of order 12 for
-//! each f. Everything commutes with the mirror in the diagonal of sector 0 too, which maps the wave
-//! f, c to the wave -f, c' with the nodes (i, j) and (j, i) exchanged. The complex numbers c with
-//! c' = conj(c) are a *real* space of dimension 12, in which the blocks are real matrices:
+//! keep this form with frequency f under every map here; a map has one complex block of order 12
+//! for each f. Everything commutes with the mirror in the diagonal of sector 0 too, which maps the
+//! wave f, c to the wave -f, c' with the nodes (i, j) and (j, i) exchanged. The complex numbers c
+//! with c' = conj(c) are a *real* space of dimension 12, in which the blocks are real matrices:
 //!
 //! ```text
 //!   (i, i), (3, j)     c = y                     one real coordinate
 //!   (i, j), i > j      c = y + i y',    its image (j, i) has   c = y - i y'
 //! ```
 //!
-//! Frequency -f has the same matrix as f, so that f = 0..=n/2 suffice. All that is needed are cosines
-//! and sines of multiples of a half turn pi/n.
+//! Frequency -f has the same matrix as f, so that f = 0..=n/2 suffice. All that is needed are
+//! cosines and sines of multiples of a half turn pi/n.
 
 use crate::linear::Matrix;
 use crate::nets::NODES_PER_SECTOR;
@@ -210,8 +210,8 @@ impl Block {
         matrix
     }
 
-    /// The values c_k = x + i y at all nodes of sector 0 as real coordinates; they must be those of a
-    /// wave that the mirror keeps.
+    /// The values c_k = x + i y at all nodes of sector 0 as real coordinates; they must be those of
+    /// a wave that the mirror keeps.
     pub fn coordinates(&self, values: impl Fn(usize) -> Complex) -> Vec<Real> {
         let value = |node: usize| {
             let back = self.half_turns.power(-self.phase(NODES[node], 0));
@@ -232,8 +232,8 @@ impl Block {
         })
     }
 
-    /// The complex coordinates of the part of this frequency of the net that is 1 at a node of sector
-    /// s = `turn` and 0 elsewhere.
+    /// The complex coordinates of the part of this frequency of the net that is 1 at a node of
+    /// sector s = `turn` and 0 elsewhere.
     pub fn unit(&self, turn: usize, node: usize) -> [Complex; NODES_PER_SECTOR] {
         let mut unit = [Complex::ZERO; NODES_PER_SECTOR];
         let phase = self.half_turns.power(-self.phase(NODES[node], turn as isize));
@@ -253,8 +253,8 @@ impl Block {
         unit
     }
 
-    /// The value at the inner node number `rule` of sector 0 of the wave whose coordinates at the six
-    /// inner nodes are `wave`.
+    /// The value at the inner node number `rule` of sector 0 of the wave whose coordinates at the
+    /// six inner nodes are `wave`.
     pub fn value(&self, rule: usize, wave: &[Complex; 6]) -> Complex {
         match RULES[rule] {
             (3, _) => wave[rule].times(self.half_turns.power(self.frequency as isize)),

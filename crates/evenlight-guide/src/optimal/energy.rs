@@ -1,14 +1,14 @@
 //! The energy of a ring: integrals of squared derivatives with respect to the characteristic map.
 //!
-//! For a function f on the ring, with X, Y the Cartesian coordinates of the characteristic map chi of
-//! Catmull-Clark subdivision, scaled such that lines end at distance 1,
+//! For a function f on the ring, with X, Y the Cartesian coordinates of the characteristic map chi
+//! of Catmull-Clark subdivision, scaled such that lines end at distance 1,
 //!
 //! ```text
 //!   |D^k f|^2 = integral over the ring of  sum_(i=0..k) C(k,i) (d_X^(k-i) d_Y^i f)^2  dX dY,
 //! ```
 //!
-//! by 6 x 6 Gauss points per patch. It is invariant under rotations and mirrors of the plane. Square C
-//! of a sector is the mirror image of square A, and so nothing is computed for it.
+//! by 6 x 6 Gauss points per patch. It is invariant under rotations and mirrors of the plane.
+//! Square C of a sector is the mirror image of square A, and so nothing is computed for it.
 
 use crate::guided::bb::{choose, restrict};
 use crate::guided::characteristic::{CharacteristicRing, Square};

@@ -2,8 +2,8 @@
 //!
 //! The rule of the inner node (h, k), h < 3, may use the 21 nodes of its sector's L-net; that of a
 //! node on line s those of the L-nets on both sides. By the mirrors there are 81 weights. A gain of
-//! this form cannot be optimal for every e, so the initial nets must be agreed on: all nets that come
-//! from a c-net, each weighted such that the best gain of all would spend the same on it,
+//! this form cannot be optimal for every e, so the initial nets must be agreed on: all nets that
+//! come from a c-net, each weighted such that the best gain of all would spend the same on it,
 //!
 //! ```text
 //!   least  sum over blocks of  trace(P(K) S),    S = E (E^T P* E)^-1 E^T,
@@ -209,8 +209,8 @@ impl<'a> Problem<'a> {
 
     /// The fixed point of [`Self::next`], from stable weights.
     ///
-    /// By itself the iteration is slow (n = 12) or circles around the fixed point (n = 16), hence the
-    /// extrapolation from the last few steps. Steps that cost more are halved.
+    /// By itself the iteration is slow (n = 12) or circles around the fixed point (n = 16), hence
+    /// the extrapolation from the last few steps. Steps that cost more are halved.
     fn solve(&self, mut weights: Vec<Real>) -> Vec<Real> {
         let mut found = self.evaluated(&weights).expect("cutting the optimal gain keeps it stable");
         let mut history = History::default();

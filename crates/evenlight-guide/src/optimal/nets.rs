@@ -1,7 +1,8 @@
 //! The two kinds of nets: C2 splines of degree 4 and cubic splines on the half-step grid.
 //!
-//! Both have the twelve nodes per sector of [`crate::nets`], at the same places. What differs is how
-//! a net is refined where everything is regular, how it comes from a c-net, and the form of a ring.
+//! Both have the twelve nodes per sector of [`crate::nets`], at the same places. What differs is
+//! how a net is refined where everything is regular, how it comes from a c-net, and the form of a
+//! ring.
 
 use crate::guided::net::CNet;
 use crate::linear::Matrix;
@@ -150,8 +151,8 @@ fn place(i: isize, j: isize) -> (isize, usize) {
     (turn, i + 4 * j)
 }
 
-/// The node (a, b) of a c-net as seen from sector s: (turns, number in its sector), if it is not the
-/// centre.
+/// The node (a, b) of a c-net as seen from sector s: (turns, number in its sector), if it is not
+/// the centre.
 pub fn cnet_place(a: isize, b: isize) -> Option<(isize, usize)> {
     match (a, b) {
         (0, 0) => None,

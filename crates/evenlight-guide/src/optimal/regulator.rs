@@ -15,8 +15,8 @@
 //! ```
 //!
 //! The second derivatives keep e from hiding in nets that look like quadratics; without them its
-//! slowest mode would decay by .97 lambda^2 instead of .8 lambda^2 in a step. The last term makes all
-//! of e count.
+//! slowest mode would decay by .97 lambda^2 instead of .8 lambda^2 in a step. The last term makes
+//! all of e count.
 
 use crate::linear::Matrix;
 use crate::nets::NODES_PER_SECTOR;

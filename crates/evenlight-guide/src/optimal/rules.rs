@@ -8,7 +8,8 @@
 //!
 //! a and b being complex numbers that the waves of frequency 1 and 2 of the net determine, and c a
 //! real one that its mean over the sectors does. With u along line s-1 and v along line s,
-//! z = u exp(-i pi/n) + v exp(i pi/n), and so the five numbers are those of q_2..q_6 in other words.
+//! z = u exp(-i pi/n) + v exp(i pi/n), and so the five numbers are those of q_2..q_6 in other
+//! words.
 //!
 //! The weights of p are one minus the sum of the others: everything here concerns nets less p.
 

@@ -16,9 +16,10 @@
 //! only the position does. Where the point has no tangent plane they meet in an angle.
 
 use super::curvature::{Range, RingCurvature, curvature_over};
+use super::defect::Defect;
 use crate::cap::{Cap, Lines};
 use crate::patch::SurfacePoint;
-use crate::point::{cross, dot, norm, sub};
+use crate::point::{norm, sub};
 use crate::rings::Rings;
 use crate::surface::{PatchPlace, Role, Surface};
 use crate::task::map_indexed;
@@ -29,18 +30,6 @@ const SAMPLES: usize = 16;
 /// A cap counts as flat if its curvature times its extent is below this (see
 /// [`shape`](super::shape)): its curvature is noise then.
 const FLAT: f64 = 1e-7;
-
-/// The largest jumps across some borders.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Defect {
-    /// Of position (G0), in the units of the cage.
-    pub position: f64,
-    /// Of the tangent plane (G1): the angle between the normals, in radians.
-    pub tangent_plane: f64,
-    /// Of curvature (G2): the larger difference of the principal curvatures, as a part of the
-    /// largest absolute principal curvature of the cap; 0 for flat caps.
-    pub curvature: f64,
-}
 
 /// What is measured of the cap of one extraordinary point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +42,8 @@ pub struct CapReport {
     pub degree: usize,
     /// So many patches stand along each side of a sector.
     pub split: usize,
-    /// Across the lines between sectors.
+    /// Across the lines between sectors. Of these three, jumps of curvature are a part of the
+    /// [`scale`](Self::scale); 0 for flat caps.
     pub lines: Defect,
     /// Across the borders between the patches of a sector.
     pub inside: Defect,
@@ -77,8 +67,8 @@ impl CapReport {
     }
 }
 
-/// Measures the caps of a closed surface, one report for each point with a cap; none if the surface is
-/// not closed.
+/// Measures the caps of a closed surface, one report for each point with a cap; none if the surface
+/// is not closed.
 pub fn cap_report(surface: &Surface) -> Vec<CapReport> {
     let Some(options) = surface.cap_options() else { return Vec::new() };
     let mut places: Vec<Vec<PatchPlace>> = vec![Vec::new(); surface.extraordinary_points().len()];
@@ -162,8 +152,9 @@ impl Around<'_> {
 
     fn lines(self) -> Defect {
         let lines = Lines::of(self.rings.rules());
-        let at =
-            |s: usize, u: f64| jump(&self.eval(s, u, 0.0), &self.eval(lines.behind(s), 0.0, u));
+        let at = |s: usize, u: f64| {
+            Defect::between(&self.eval(s, u, 0.0), &self.eval(lines.behind(s), 0.0, u))
+        };
         let smooth = lines.smooth().flat_map(|s| self.along().map(move |u| at(s, u)));
         let dart = lines.dart().into_iter().flat_map(|s| {
             self.along().map(move |u| Defect { position: at(s, u).position, ..Defect::default() })
@@ -180,7 +171,7 @@ impl Around<'_> {
             let eval = |which, at| self.cap.eval_in_patch(self.rings, s, which, at);
             let across_a = [joint - 1, joint].map(|k| eval(k * m + along, [x, t]));
             let across_b = [joint - 1, joint].map(|k| eval(along * m + k, [t, x]));
-            [across_a, across_b].map(|[p, q]| jump(&p, &q))
+            [across_a, across_b].map(|[p, q]| Defect::between(&p, &q))
         };
         largest(self.sectors().flat_map(|s| joints.clone().flat_map(move |joint| at(s, joint))))
     }
@@ -189,7 +180,7 @@ impl Around<'_> {
     fn ring(self) -> Defect {
         let at = |s: usize, hole: [f64; 2]| {
             let [a, b] = self.rings.out_of_hole(self.cap.rings(), hole);
-            jump(&self.eval(s, hole[0], hole[1]), &self.rings.eval_as(s, a, b))
+            Defect::between(&self.eval(s, hole[0], hole[1]), &self.rings.eval_as(s, a, b))
         };
         let edges = |t: f64| [[1.0, t], [t, 1.0]];
         let points = self.along().flat_map(edges).collect::<Vec<_>>();
@@ -198,19 +189,5 @@ impl Around<'_> {
 }
 
 fn largest(defects: impl Iterator<Item = Defect>) -> Defect {
-    defects.fold(Defect::default(), |a, b| Defect {
-        position: a.position.max(b.position),
-        tangent_plane: a.tangent_plane.max(b.tangent_plane),
-        curvature: a.curvature.max(b.curvature),
-    })
-}
-
-/// The jump between two answers for one point, that of curvature in 1/unit.
-fn jump(a: &SurfacePoint, b: &SurfacePoint) -> Defect {
-    let ([a1, a2], [b1, b2]) = (a.principal_curvatures(), b.principal_curvatures());
-    Defect {
-        position: norm(sub(a.jet.p, b.jet.p)),
-        tangent_plane: norm(cross(a.normal, b.normal)).atan2(dot(a.normal, b.normal)),
-        curvature: (a1 - b1).abs().max((a2 - b2).abs()),
-    }
+    defects.fold(Defect::default(), Defect::max)
 }

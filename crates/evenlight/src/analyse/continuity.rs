@@ -18,22 +18,18 @@
 //! A surface is C2 in these parameters across all borders except at extraordinary points and
 //! infinitely sharp edges, where only positions agree; those are measured apart.
 
-use std::collections::BTreeMap;
-
+use super::defect::Defect;
+use crate::complex::{ComplexError, EdgePlace, PatchComplex, PatchEdge, PatchId};
 use crate::mesh::FaceId;
 use crate::patch::{Jet, SurfacePoint};
-use crate::point::{Vector, cross, dot, norm, scale, sub};
+use crate::point::{Vector, norm, scale, sub};
 use crate::surface::{PatchPlace, QuadId, Role, Surface};
 
 /// The largest jumps over a set of border points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Jumps {
-    /// Of position, in the units of the cage.
-    pub position: f64,
-    /// Of the tangent plane: the angle between the normals, in radians.
-    pub tangent_plane: f64,
-    /// Of curvature: the larger difference of the principal curvatures, in 1/unit.
-    pub curvature: f64,
+    /// Of position, tangent plane and curvature, that in 1/unit.
+    pub defect: Defect,
     /// Of position and derivatives up to order two in matched parameters, as a part of the size
     /// of the patch (its largest derivative over its own parameters).
     pub parametric: f64,
@@ -43,9 +39,7 @@ impl Jumps {
     /// The larger of each.
     pub fn max(self, other: Self) -> Self {
         Self {
-            position: self.position.max(other.position),
-            tangent_plane: self.tangent_plane.max(other.tangent_plane),
-            curvature: self.curvature.max(other.curvature),
+            defect: self.defect.max(other.defect),
             parametric: self.parametric.max(other.parametric),
         }
     }
@@ -66,11 +60,22 @@ pub struct Continuity {
     pub creases: Jumps,
 }
 
-/// Samples `samples` points inside every patch border of the surface with `rings` rings.
+/// Samples `samples` points inside every side of every patch of the surface with `rings` rings.
 ///
 /// The inner border of the last ring is compared with the ring behind it. Caps, which join in other
-/// parameters, are left out: [`cap_report`](super::caps::cap_report) measures them.
-pub fn continuity(surface: &Surface, rings: usize, samples: usize) -> Continuity {
+/// parameters, are left out: [`cap_report`](super::caps::cap_report) measures them. Of more rings than a
+/// [`PatchComplex`] can have, so many are measured.
+///
+/// # Errors
+///
+/// [`ComplexError::TooMany`].
+pub fn continuity(
+    surface: &Surface,
+    rings: usize,
+    samples: usize,
+) -> Result<Continuity, ComplexError> {
+    let complex = PatchComplex::of(surface, rings.min(PatchComplex::most_rings(surface.layout())))?;
+    let around = Around { surface, complex: &complex };
     let num_points = surface.extraordinary_points().len();
     let mut result = Continuity {
         points: vec![Jumps::default(); num_points],
@@ -78,145 +83,137 @@ pub fn continuity(surface: &Surface, rings: usize, samples: usize) -> Continuity
         all: Jumps::default(),
         creases: Jumps::default(),
     };
-    for (_, patches) in patches_by_quad(surface, rings) {
-        for (k, patch) in patches.iter().enumerate() {
-            let mut jumps = Jumps::default();
-            for (u, v) in border_points(patch, samples) {
-                let found = jumps_at(surface, &patches, k, [u, v]);
-                jumps = jumps.max(found.smooth);
-                result.creases = result.creases.max(found.crease);
-                if let Some(point) = patch.point {
-                    let largest = &mut result.mean_jumps_across_rings[point];
-                    *largest = largest.max(mean_jump_across_rings(surface, &patches, k, [u, v]));
-                }
-            }
-            if let Some(point) = patch.point {
-                result.points[point] = result.points[point].max(jumps);
-            }
-            result.all = result.all.max(jumps);
+    for (id, patch) in complex.patches().filter(|(_, patch)| patch.role != Role::Cap) {
+        let mut found = Found::default();
+        for side in 0..4 {
+            (0..samples).for_each(|k| around.sample(&mut found, id, side, [k, samples]));
         }
+        if let Some(point) = patch.point {
+            result.points[point] = result.points[point].max(found.smooth);
+            let largest = &mut result.mean_jumps_across_rings[point];
+            *largest = largest.max(found.mean_across_rings);
+        }
+        result.all = result.all.max(found.smooth);
+        result.creases = result.creases.max(found.crease);
     }
-    result
+    Ok(result)
 }
 
-fn patches_by_quad(surface: &Surface, rings: usize) -> BTreeMap<QuadId, Vec<PatchPlace>> {
-    let mut quads: BTreeMap<QuadId, Vec<PatchPlace>> = BTreeMap::new();
-    for patch in surface.patch_places(rings).filter(|patch| patch.role != Role::Cap) {
-        quads.entry(patch.quad).or_default().push(patch);
-    }
-    quads
-}
-
-/// Points inside the four borders of a patch, in the parameters of its quad.
-fn border_points(patch: &PatchPlace, samples: usize) -> Vec<(f64, f64)> {
-    let [[u0, u1], [v0, v1]] = patch.domain;
-    let inside = |a: f64, b: f64, k: usize| a + (b - a) * (k as f64 + 0.5) / samples as f64;
-    let along_u = (0..samples).flat_map(|k| [v0, v1].map(|v| (inside(u0, u1, k), v)));
-    let along_v = (0..samples).flat_map(|k| [u0, u1].map(|u| (u, inside(v0, v1, k))));
-    along_u.chain(along_v).collect()
-}
-
-/// The jumps at a point, those over an infinitely sharp edge apart.
+/// The largest jumps at some points, those over infinitely sharp edges apart.
 #[derive(Clone, Copy, Default)]
 struct Found {
     smooth: Jumps,
     crease: Jumps,
+    /// Of the mean curvature, to another ring of the same quad.
+    mean_across_rings: f64,
 }
 
-/// The jumps between patch `k` of a quad and everything else that has the point `at` of its
-/// border.
-fn jumps_at(surface: &Surface, patches: &[PatchPlace], k: usize, at: [f64; 2]) -> Found {
-    let size = patches[k].domain.map(|[start, end]| end - start);
-    let here = surface.answer_on::<SurfacePoint>(&patches[k], [at[0], at[1]]);
-    let inside = patches.iter().enumerate().filter(|&(j, p)| j != k && contains(p, at));
-    let mut jumps = Jumps::default();
-    let mut alone = true;
-    for (_, other) in inside {
-        alone = false;
-        jumps = jumps.max(compare(
-            &here,
-            &surface.answer_on::<SurfacePoint>(other, [at[0], at[1]]),
-            size,
-        ));
-    }
-    if let Some(side) = (0..4).find(|&side| is_on_side(side, at)) {
-        let Some((quad, other_side, t, speed)) = across(surface, patches[k].quad, side, at) else {
-            return Found { smooth: jumps, ..Found::default() };
-        };
-        let [u, v] = point_on_side(other_side, t);
-        if let Some(there) = surface.eval(quad, u, v) {
-            // Both sides as seen from the border, in the parameters of this quad.
-            let jet = border_jet(other_side, &there.jet).scaled_parameters(-speed);
-            let here = SurfacePoint { jet: border_jet(side, &here.jet), ..here };
-            let size = if side.is_multiple_of(2) { size } else { [size[1], size[0]] };
-            let beyond = compare(&here, &SurfacePoint { jet, ..there }, size);
-            if is_crease(surface, patches[k].quad, side) {
-                return Found { smooth: jumps, crease: beyond };
+/// A surface and its patches.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    surface: &'a Surface,
+    complex: &'a PatchComplex,
+}
+
+/// A point inside a side of a patch, in the parameters of its quad, what the patch says there, and what
+/// it covers of u and v.
+struct Here<'a> {
+    patch: PatchId,
+    place: &'a PatchPlace,
+    side: u8,
+    at: [f64; 2],
+    found: SurfacePoint,
+    size: [f64; 2],
+}
+
+impl<'a> Around<'a> {
+    /// Compares point `k` of `samples` on a side of a patch with all that has it on the other side.
+    fn sample(self, found: &mut Found, patch: PatchId, side: u8, [k, samples]: [usize; 2]) {
+        let Some(place) = self.complex.place(patch) else { return };
+        let part = (k as f64 + 0.5) / samples as f64;
+        let at = point_of_side(place, side, [k, samples]);
+        let size = place.domain.map(|[start, end]| end - start);
+        let here = Here { patch, place, side, at, found: self.surface.answer_on(place, at), size };
+        // Several edges, if one ends here.
+        let own = if side < 2 { part } else { 1.0 - part };
+        let edges = self.complex.edges_of_side(patch, side).iter();
+        for edge in edges.filter_map(|&edge| self.complex.edge(edge)) {
+            let mut uses = edge.uses().iter().filter(|of| (of.patch, of.side) == (patch, side));
+            if uses.any(|of| of.interval[0] <= own && own <= of.interval[1]) {
+                self.compare_across(found, &here, edge);
             }
-            jumps = jumps.max(beyond);
-        }
-    } else if alone && patches[k].point.is_none_or(|point| surface.cap(point).is_none()) {
-        // The inner border of the last ring: evaluation answers with the ring behind it.
-        if let Some(there) = surface.eval(patches[k].quad, at[0], at[1]) {
-            jumps = jumps.max(compare(&here, &there, size));
         }
     }
-    Found { smooth: jumps, ..Found::default() }
+
+    fn compare_across(self, found: &mut Found, here: &Here, edge: &PatchEdge) {
+        let other = edge.across(here.patch).and_then(|other| self.complex.place(other));
+        if matches!(edge.place, EdgePlace::AlongU { .. } | EdgePlace::AlongV { .. }) {
+            return self.compare_inside(found, here, other);
+        }
+        let quad = here.place.quad;
+        let side = usize::from(here.side);
+        let Some((quad, other_side, t, speed)) = across(self.surface, quad, side, here.at) else {
+            return;
+        };
+        let at = point_on_side(other_side, t);
+        let there = match other {
+            Some(place) => Some(self.surface.answer_on(place, at)),
+            None => self.surface.eval(quad, at[0], at[1]),
+        };
+        let Some(there) = there else { return };
+        // Both sides as seen from the border, in the parameters of this quad.
+        let jet = border_jet(other_side, &there.jet).scaled_parameters(-speed);
+        let here_jet = border_jet(side, &here.found.jet);
+        let size = if side.is_multiple_of(2) { here.size } else { [here.size[1], here.size[0]] };
+        let here = SurfacePoint { jet: here_jet, ..here.found };
+        let jumps = compare(&here, &SurfacePoint { jet, ..there }, size);
+        let is_crease =
+            matches!(edge.place, EdgePlace::CageEdge(h) if self.surface.is_infinitely_sharp(h));
+        let of_kind = if is_crease { &mut found.crease } else { &mut found.smooth };
+        *of_kind = of_kind.max(jumps);
+    }
+
+    /// Compares with another patch of the same quad, or with the ring that would come next.
+    fn compare_inside(self, found: &mut Found, here: &Here, other: Option<&PatchPlace>) {
+        let (place, [u, v]) = (here.place, here.at);
+        let there = match other.filter(|other| other.role != Role::Cap) {
+            Some(other) => {
+                let there: SurfacePoint = self.surface.answer_on(other, here.at);
+                if other.point == place.point && other.role != place.role {
+                    let jump = (there.mean - here.found.mean).abs();
+                    found.mean_across_rings = found.mean_across_rings.max(jump);
+                }
+                Some(there)
+            }
+            None if place.point.is_some_and(|point| self.surface.cap(point).is_some()) => None,
+            None => self.surface.eval(place.quad, u, v),
+        };
+        if let Some(there) = there {
+            found.smooth = found.smooth.max(compare(&here.found, &there, here.size));
+        }
+    }
 }
 
-/// Whether a side of a quad lies on an infinitely sharp edge.
-fn is_crease(surface: &Surface, quad: QuadId, side: usize) -> bool {
-    let topology = surface.topology();
-    let (face, k) = surface.layout().face_of_quad(quad);
-    let corners = topology.faces().corners(face).len();
-    let edge = match (corners == 4, side) {
-        (true, _) => side,
-        (false, 0) => k,
-        (false, 3) => (k + corners - 1) % corners,
-        // Inside an n-gon.
-        (false, _) => return false,
-    };
-    surface.is_infinitely_sharp(topology.half_edge(face, edge))
-}
-
-/// The jump of H between patch `k` of a quad and the patches of other rings at the point `at` of
-/// its border.
-fn mean_jump_across_rings(
-    surface: &Surface,
-    patches: &[PatchPlace],
-    k: usize,
-    [u, v]: [f64; 2],
-) -> f64 {
-    let here = surface.answer_on::<SurfacePoint>(&patches[k], [u, v]).mean;
-    let of_another_ring = |p: &&PatchPlace| {
-        p.point == patches[k].point && p.role != patches[k].role && contains(p, [u, v])
-    };
-    let others = patches.iter().filter(of_another_ring);
-    others
-        .map(|p| (surface.answer_on::<SurfacePoint>(p, [u, v]).mean - here).abs())
-        .fold(0.0, f64::max)
-}
-
-/// Whether a point of a quad is in a patch, its border included.
-fn contains(place: &PatchPlace, at: [f64; 2]) -> bool {
-    (0..2).all(|d| place.domain[d][0] <= at[d] && at[d] <= place.domain[d][1])
+/// Point `k` of `samples` inside a side of a patch, in the parameters of its quad.
+fn point_of_side(place: &PatchPlace, side: u8, [k, samples]: [usize; 2]) -> [f64; 2] {
+    let [[u0, u1], [v0, v1]] = place.domain;
+    let inside = |a: f64, b: f64| a + (b - a) * (k as f64 + 0.5) / samples as f64;
+    match side {
+        0 => [inside(u0, u1), v0],
+        1 => [u1, inside(v0, v1)],
+        2 => [inside(u0, u1), v1],
+        _ => [u0, inside(v0, v1)],
+    }
 }
 
 /// The jumps between two answers for one point, in the same parameters; `size` is what a patch
 /// covers of either.
 fn compare(a: &SurfacePoint, b: &SurfacePoint, size: [f64; 2]) -> Jumps {
-    let angle = norm(cross(a.normal, b.normal)).atan2(dot(a.normal, b.normal));
-    let (ka, kb) = (a.principal_curvatures(), b.principal_curvatures());
     let own = over_patch(&a.jet, size);
     let extent = own.rows()[1..].iter().map(|&r| norm(r)).fold(0.0, f64::max);
     let other = over_patch(&b.jet, size);
     let apart = own.rows().into_iter().zip(other.rows()).map(|(x, y)| norm(sub(x, y)));
-    Jumps {
-        position: norm(sub(a.jet.p, b.jet.p)),
-        tangent_plane: angle,
-        curvature: (ka[0] - kb[0]).abs().max((ka[1] - kb[1]).abs()),
-        parametric: apart.fold(0.0, f64::max) / extent,
-    }
+    Jumps { defect: Defect::between(a, b), parametric: apart.fold(0.0, f64::max) / extent }
 }
 
 /// A jet in parameters that run from 0 to 1 over a patch of this size.
@@ -229,10 +226,6 @@ fn over_patch(jet: &Jet, [u, v]: [f64; 2]) -> Jet {
         duv: scale(u * v, jet.duv),
         dvv: scale(v * v, jet.dvv),
     }
-}
-
-fn is_on_side(side: usize, [u, v]: [f64; 2]) -> bool {
-    [v == 0.0, u == 1.0, v == 1.0, u == 0.0][side]
 }
 
 /// The parameter along a side, from its first corner to the next.

@@ -6,6 +6,7 @@
 //! to ring (Catmull-Clark's grow without bound).
 
 use super::continuity::{Jumps, continuity};
+use crate::complex::ComplexError;
 use crate::patch::SurfacePoint;
 use crate::surface::{PatchPlace, Role, Surface};
 
@@ -82,8 +83,12 @@ pub struct CurvatureReport {
 /// all patch borders.
 ///
 /// Sectors in omitted faces do not count. Takes 81 evaluations per patch.
-pub fn curvature_report(surface: &Surface, rings: usize) -> CurvatureReport {
-    let continuity = continuity(surface, rings, BORDER_SAMPLES);
+///
+/// # Errors
+///
+/// As of [`continuity`].
+pub fn curvature_report(surface: &Surface, rings: usize) -> Result<CurvatureReport, ComplexError> {
+    let continuity = continuity(surface, rings, BORDER_SAMPLES)?;
     let empty = RingCurvature { gauss: Range::EMPTY, mean: Range::EMPTY };
     let mut points: Vec<PointReport> = (0..surface.extraordinary_points().len())
         .map(|point| PointReport {
@@ -102,7 +107,7 @@ pub fn curvature_report(surface: &Surface, rings: usize) -> CurvatureReport {
             report.total = union(report.total, found);
         }
     }
-    CurvatureReport { points, jumps: continuity.all }
+    Ok(CurvatureReport { points, jumps: continuity.all })
 }
 
 fn union(a: RingCurvature, b: RingCurvature) -> RingCurvature {

@@ -3,6 +3,7 @@
 pub mod caps;
 pub mod continuity;
 pub mod curvature;
+pub mod defect;
 pub mod highlight;
 pub mod injectivity;
 pub mod shape;

@@ -18,10 +18,11 @@ use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 ///   f(a/2, b/2) = lambda^s f(a,b),    in each sector.
 /// ```
 ///
-/// (With other contractions than Catmull-Clark's sigma takes the place of 1/2.) So all rings are known from the first one. They are C2 everywhere but at the centre. Every guided
-/// surface is a sum of eigenfunctions from ring 1 on (ring 0 has the border of the surrounding
-/// surface instead of theirs). Function 0 is the constant 1, functions 1 and 2 are the
-/// characteristic map, the even one along the diagonal of sector 0.
+/// (With other contractions than Catmull-Clark's sigma takes the place of 1/2.) So all rings are
+/// known from the first one. They are C2 everywhere but at the centre. Every guided surface is a
+/// sum of eigenfunctions from ring 1 on (ring 0 has the border of the surrounding surface instead
+/// of theirs). Function 0 is the constant 1, functions 1 and 2 are the characteristic map, the even
+/// one along the diagonal of sector 0.
 ///
 /// ```
 /// use evenlight::SchemeKind;
@@ -223,8 +224,8 @@ impl Eigenfunctions {
         &self.rules.patches[which].old[at]
     }
 
-    /// The limit point if node `node` of a c-net is 1 and the others 0, and the nodes of all sectors
-    /// relative to it.
+    /// The limit point if node `node` of a c-net is 1 and the others 0, and the nodes of all
+    /// sectors relative to it.
     pub(super) fn net_of_node(&self, node: usize) -> (f64, Vec<f64>) {
         let sectors = vec![[[0.0]; CNET_NODES]; self.valence()];
         let mut cnet = CNet { center: [0.0], sectors };

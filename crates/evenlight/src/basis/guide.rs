@@ -12,8 +12,8 @@
 //! The conditions know angles only, so they hold for every part of degree i + j = s by itself, and
 //! shrinking by lambda multiplies that part by lambda^s: its solutions are the eigenspace.
 //!
-//! **Modes.** The conditions commute with turning by a sector and with the mirror in the diagonal of
-//! sector 0. So the solutions are spanned by, for m = 0 .. n/2, omega = exp(2 pi i / n),
+//! **Modes.** The conditions commute with turning by a sector and with the mirror in the diagonal
+//! of sector 0. So the solutions are spanned by, for m = 0 .. n/2, omega = exp(2 pi i / n),
 //!
 //! ```text
 //!   a_ij of sector s = Re(omega^(m s) x_ij)    even in the diagonal of sector 0
@@ -31,8 +31,8 @@
 //!
 //! There are as many real unknowns as monomials, s + 1 or 11 - s; so from degree 4 on a mode has
 //! 2, 3, 3, 3, 3, 2, 1 solutions, as the equations are independent there. In degree 3 it has one,
-//! but two if 2c = -cos(2 alpha) and sin(2 alpha) = 0, which happens for n = 3, m = 0 and for n = 6,
-//! m = 3 only: that is the n* of [KP18-Guided, table 5].
+//! but two if 2c = -cos(2 alpha) and sin(2 alpha) = 0, which happens for n = 3, m = 0 and for
+//! n = 6, m = 3 only: that is the n* of [KP18-Guided, table 5].
 
 use std::f64::consts::PI;
 

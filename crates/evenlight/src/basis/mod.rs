@@ -15,12 +15,11 @@ mod eigen;
 mod guide;
 mod layout;
 mod space;
-mod sparse;
 
+pub use crate::sparse::Stencils;
 pub use eigen::Eigenfunctions;
 pub use guide::{HomogeneousGuide, MAX_TOTAL_DEGREE, Parity, multiplicity};
 pub use space::{Element, FunctionKind, RefinableSpace, Support};
-pub use sparse::SparseMatrix;
 
 use crate::patch::Jet;
 use crate::patch::basis::bernstein_basis;

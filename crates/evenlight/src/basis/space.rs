@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::eigen::Eigenfunctions;
 use super::layout::{Combination, LAYERS, Layout};
-use super::sparse::SparseMatrix;
 use super::{jet_of_patch, value_alone};
 use crate::net::CNET_NODES;
 use crate::patch::Jet;
 use crate::rings::{MAX_RINGS, power, ring_of, scaled_up};
 use crate::scheme::{Contraction, SchemeKind, guide_monomials};
+use crate::sparse::Stencils;
 
 /// A space V_m of C2 functions around one extraordinary point \[KP18-Guided, Section 6.4\]: free
 /// splines on rings 0 to m-1, a free guide for all rings from m on.
@@ -20,18 +20,18 @@ use crate::scheme::{Contraction, SchemeKind, guide_monomials};
 ///   18n       18n        18n             18n       |  17n + n* + 6: a guide, subdivided
 /// ```
 ///
-/// (bi-5; 24n and 36n with bi-6 rings). Every function is C2 everywhere but at the centre: there the
-/// functions of rings vanish near by, and the guides are as smooth as the scheme. V_m lies in
+/// (bi-5; 24n and 36n with bi-6 rings). Every function is C2 everywhere but at the centre: there
+/// the functions of rings vanish near by, and the guides are as smooth as the scheme. V_m lies in
 /// V_(m+1), by the sparse matrix [`RefinableSpace::refinement`].
 ///
-/// **Functions**, by number: those of the border (level 0), of ring 0 (level 1, then the ring's own),
-/// of ring 1, ..., and the guides, which are the eigenfunctions in their order, scaled to be of the
-/// same size on ring m. Functions of rings are products of B-splines with triple knots (fourfold
-/// in bi-6): they are not negative, and their sum and function [`RefinableSpace::constant`] are the
-/// same as 1.
+/// **Functions**, by number: those of the border (level 0), of ring 0 (level 1, then the ring's
+/// own), of ring 1, ..., and the guides, which are the eigenfunctions in their order, scaled to be
+/// of the same size on ring m. Functions of rings are products of B-splines with triple knots
+/// (fourfold in bi-6): they are not negative, and their sum and function
+/// [`RefinableSpace::constant`] are the same as 1.
 ///
-/// A function of level l lives on rings l-1 and l, one of the ring's own on that ring only. Those of
-/// level 0 live on ring 0 and, in the same way, beyond the border.
+/// A function of level l lives on rings l-1 and l, one of the ring's own on that ring only. Those
+/// of level 0 live on ring 0 and, in the same way, beyond the border.
 ///
 /// ```
 /// use evenlight::SchemeKind;
@@ -43,11 +43,11 @@ use crate::scheme::{Contraction, SchemeKind, guide_monomials};
 /// // Some function of V_1, the same one in V_2.
 /// let f: Vec<f64> = (0..coarse.dim()).map(|k| (k % 7) as f64).collect();
 /// let fine = coarse.refined().ok_or("there may be more rings")?;
-/// let g = coarse.refinement().apply(&f).ok_or("f has a value for each function")?;
+/// let g = coarse.refinement().apply_to_numbers(&f)?;
 /// let a = coarse.eval_sum(&f, 2, 0.2, 0.1).ok_or("there is a sector 2")?;
 /// let b = fine.eval_sum(&g, 2, 0.2, 0.1).ok_or("there is a sector 2")?;
 /// assert!((a.p[0] - b.p[0]).abs() < 1e-12 && (a.duv[0] - b.duv[0]).abs() < 1e-9);
-/// # Ok::<(), &str>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct RefinableSpace {
@@ -108,8 +108,8 @@ pub struct Support {
     pub sectors: Vec<usize>,
 }
 
-/// The functions that live on one patch of one ring, with their Bernstein-Bezier coefficients there:
-/// the element of an analysis, its matrix the Bezier extraction.
+/// The functions that live on one patch of one ring, with their Bernstein-Bezier coefficients
+/// there: the element of an analysis, its matrix the Bezier extraction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
     /// The ring.
@@ -359,8 +359,8 @@ impl RefinableSpace {
         sum
     }
 
-    /// The sum of all functions times `values` at (a,b) of a sector, with its derivatives by a and b.
-    /// At the centre (0,0) it has only its value; the derivatives are NaN.
+    /// The sum of all functions times `values` at (a,b) of a sector, with its derivatives by a and
+    /// b. At the centre (0,0) it has only its value; the derivatives are NaN.
     ///
     /// `None` if there is no such sector, a, b are not from 0 to 1, or there is not one value for each
     /// function. Many points on one patch are cheaper with [`RefinableSpace::element`].
@@ -419,7 +419,7 @@ impl RefinableSpace {
     ///
     /// It is the identity on the border and the rings; the new ring takes what the guide gives it,
     /// and the guide shrinks: eigenfunction by eigenfunction it is multiplied by lambda^s.
-    pub fn refinement(&self) -> SparseMatrix {
+    pub fn refinement(&self) -> Stencils {
         let (first, guides) = (self.first_guide(), self.eigenfunctions().len());
         let kept = (0..first).map(|k| vec![(k, 1.0)]);
         let columns: Vec<Vec<f64>> = (0..guides).map(|k| self.functions_of_ring(k)).collect();
@@ -428,10 +428,12 @@ impl RefinableSpace {
             row.filter(|(_, w)| *w != 0.0).collect()
         });
         let shrunk = (0..guides).map(|k| vec![(first + k, self.eigenfunctions().eigenvalue_of(k))]);
-        SparseMatrix::of_rows(self.dim(), kept.chain(new).chain(shrunk))
+        let matrix = Stencils::from_rows(self.dim(), kept.chain(new).chain(shrunk));
+        matrix.expect("every column is a function")
     }
 
-    /// The values of the functions of a ring in eigenfunction `k` on ring 0, in the order of numbers.
+    /// The values of the functions of a ring in eigenfunction `k` on ring 0, in the order of
+    /// numbers.
     fn functions_of_ring(&self, k: usize) -> Vec<f64> {
         let (layout, order) = (self.common.layout, self.degree() + 1);
         let rows = layout.functions_from_ring();
@@ -491,9 +493,9 @@ impl RefinableSpace {
     /// the functions: applied to the nodes' positions, it gives the surface of the scheme.
     ///
     /// Column k is the scheme's own function of node k. Outside of the border that function is the
-    /// bi-3 B-spline of the node: together with the B-splines of all other nodes of a cage these are
-    /// a basis on the whole surface, which the functions of borders, rings and guides refine.
-    pub fn cnet_matrix(&self) -> SparseMatrix {
+    /// bi-3 B-spline of the node: together with the B-splines of all other nodes of a cage these
+    /// are a basis on the whole surface, which the functions of borders, rings and guides refine.
+    pub fn cnet_matrix(&self) -> Stencils {
         let coarse = self.with_rings(0);
         let nodes = CNET_NODES * self.valence() + 1;
         let columns: Vec<Vec<f64>> = (0..nodes).map(|node| coarse.of_node(node)).collect();
@@ -501,10 +503,12 @@ impl RefinableSpace {
             let entries = columns.iter().enumerate().map(|(node, column)| (node, column[k]));
             entries.filter(|(_, w)| *w != 0.0).collect()
         };
-        let mut matrix = SparseMatrix::of_rows(nodes, (0..coarse.dim()).map(row));
+        let matrix = Stencils::from_rows(nodes, (0..coarse.dim()).map(row));
+        let mut matrix = matrix.expect("every column is a node");
         let mut space = coarse;
         while space.rings < self.rings {
-            matrix = space.refinement().product(&matrix);
+            let next = space.refinement().times(&matrix);
+            matrix = next.expect("every row is a function");
             space = space.with_rings(space.rings + 1);
         }
         matrix

@@ -36,6 +36,10 @@ mod rules;
 mod sector;
 mod spline;
 
+use std::fmt;
+use std::str::FromStr;
+
+use crate::names::UnknownName;
 use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::rings::{MAX_RINGS, Rings, ValenceRules};
@@ -48,6 +52,7 @@ use spline::Space;
 
 /// The degree of a cap's patches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum CapKind {
     /// What suits the scheme best ([`CapKind::of_scheme`]).
     #[default]
@@ -131,6 +136,23 @@ pub enum CapError {
 /// The highest valence with caps of the kind asked for: beyond it sectors are slivers, the rules would
 /// take seconds, and caps are plain.
 pub const MAX_VALENCE: usize = 64;
+
+/// The name in commands and files.
+impl fmt::Display for CapKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for CapKind {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        const NAMES: [&str; 5] = ["auto", "bi3", "bi4", "bi5", "bi6"];
+        let found = [Self::Auto].into_iter().chain(Self::ALL).find(|kind| kind.name() == text);
+        found.ok_or_else(|| UnknownName::new("kind of cap", text, &NAMES))
+    }
+}
 
 impl CapKind {
     /// All kinds but `Auto`.
@@ -293,9 +315,7 @@ impl<const N: usize> Cap<N> {
 
     /// [`Cap::eval`] of what is wanted alone, in a sector that there is.
     pub(crate) fn eval_as<A: Answer<N>>(&self, rings: &Rings<N>, s: usize, [a, b]: [f64; 2]) -> A {
-        let m = self.space.pieces;
-        let part = |x: f64| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1);
-        let which = part(a) * m + part(b);
+        let which = self.space.patch_at([a, b]);
         if a.max(b) == 0.0 && plain::is_plain(rings.rules()) {
             // Derivatives may be parallel, and curvature is not that of the other sectors.
             let jet: Jet<N> = self.eval_in_patch(rings, s, which, [a, b]);
@@ -347,6 +367,16 @@ impl ValenceCap {
             Self::Plain(cap) => cap.space(),
             Self::Fair(cap) => cap.space(),
         }
+    }
+
+    /// Along each side of a sector so many patches.
+    pub(crate) fn split(&self) -> usize {
+        self.space().pieces
+    }
+
+    /// The number of the patch in which a place of the hole is.
+    pub(crate) fn patch_at(&self, in_hole: [f64; 2]) -> usize {
+        self.space().patch_at(in_hole)
     }
 
     /// [`Cap::patches_per_sector`].

@@ -42,6 +42,13 @@ impl Space {
         [which / m, which % m].map(|k| [k as f64 / m as f64, (k + 1) as f64 / m as f64])
     }
 
+    /// The piece in which (a,b) is, 0 to 1; on a line between two the one before.
+    pub(super) fn patch_at(self, at: [f64; 2]) -> usize {
+        let m = self.pieces;
+        let [i, j] = at.map(|x| ((x * m as f64).ceil() as usize).saturating_sub(1).min(m - 1));
+        i * m + j
+    }
+
     /// The length of a piece.
     pub(super) fn step(self) -> f64 {
         1.0 / self.pieces as f64

@@ -25,10 +25,10 @@ use crate::surface::{PlacedPatch, Role};
 /// Writes `patches`, grouped by role; the color of `regular` is 0, that of ring k is k, that of
 /// `cap` one more than that of the last ring.
 ///
-/// Regular patches are written as they come; those of rings and caps are held back until the end, to
-/// have each group in one piece. Coordinates are in the units of the cage, with the fewest
-/// digits from which the same `f64` is read again. Writes many small pieces: give it something
-/// with a buffer.
+/// Regular patches are written as they come; those of rings and caps are held back until the end,
+/// to have each group in one piece. Coordinates are in the units of the cage, with the fewest
+/// digits from which the same `f64` is read again. Writes many small pieces: give it something with
+/// a buffer.
 pub fn write(
     patches: impl IntoIterator<Item = PlacedPatch>,
     out: &mut impl Write,
@@ -38,7 +38,7 @@ pub fn write(
     let mut caps: Vec<Patch> = Vec::new();
     let mut has_regular = false;
     for placed in patches {
-        match placed.role {
+        match placed.place.role {
             Role::Ring(k) => rings.entry(k + 1).or_default().push(placed.patch),
             Role::Cap => caps.push(placed.patch),
             Role::Regular => {
@@ -89,6 +89,7 @@ pub struct ReadError {
 
 /// What is wrong with a file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Fault {
     /// The file ends inside a group line or a patch.
     #[error("the file ends where {expected} should be")]

@@ -1,8 +1,67 @@
-//! What kind of file bytes seem to be, whatever their name says.
+//! The kinds of files, by their names and by how they begin.
 
-use super::load::Format;
+use std::path::Path;
 
-/// A kind of file.
+/// The kinds of files that hold cages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Format {
+    /// Wavefront OBJ.
+    Obj,
+    /// PLY, ascii or binary.
+    Ply,
+    /// USD as text.
+    Usda,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Obj, Self::Ply, Self::Usda];
+
+    /// Its name, as in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Usda => "USD",
+        }
+    }
+
+    /// How the names of such files end.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Obj => ".obj",
+            Self::Ply => ".ply",
+            Self::Usda => ".usda",
+        }
+    }
+
+    /// The kind of file that ends in `.extension`, in small or capital letters.
+    pub fn from_extension(extension: &str) -> Option<Self> {
+        match extension.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            // The reader says what to do with binary files.
+            "usda" | "usd" | "usdc" | "usdz" => Some(Self::Usda),
+            _ => None,
+        }
+    }
+
+    /// The kind of file that the ending of its name tells, if it does.
+    pub fn from_path(path: impl AsRef<Path>) -> Option<Self> {
+        Self::from_extension(path.as_ref().extension()?.to_str()?)
+    }
+
+    /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.
+    pub fn of_content(bytes: &[u8]) -> Self {
+        match Kind::of(bytes) {
+            Some(Kind::Cage(format)) => format,
+            Some(Kind::Other(_)) | None => Self::Obj,
+        }
+    }
+}
+
+/// What bytes seem to be, whatever the name of their file says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// One that holds cages.

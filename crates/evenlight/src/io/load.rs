@@ -11,63 +11,17 @@
 
 use std::fmt;
 
-use super::kind::Kind;
-use super::obj::{self, Skipped, UnknownTag};
-use super::{ply, usd};
-use crate::mesh::{Cage, CheckError, FaceId, Mesh, Names, VertexId, Warning};
+pub use super::kind::Format;
+pub use super::lines::Lines;
 
-/// The kinds of files that hold cages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Wavefront OBJ.
-    Obj,
-    /// PLY, ascii or binary.
-    Ply,
-    /// USD as text.
-    Usda,
-}
+use super::obj::{self, Obj, Skipped, UnknownTag};
+use super::ply::{self, Ply};
+use super::usd::{self, Usd};
+use crate::mesh::{
+    Cage, CheckError, FaceId, Marks, Mesh, MeshError, Names, Tags, VertexId, Warning,
+};
 
 impl Format {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Obj, Self::Ply, Self::Usda];
-
-    /// Its name, as in messages.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Obj => "OBJ",
-            Self::Ply => "PLY",
-            Self::Usda => "USD",
-        }
-    }
-
-    /// How the names of such files end.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Obj => ".obj",
-            Self::Ply => ".ply",
-            Self::Usda => ".usda",
-        }
-    }
-
-    /// The kind of file that ends in `.extension`, in small or capital letters.
-    pub fn from_extension(extension: &str) -> Option<Self> {
-        match extension.to_ascii_lowercase().as_str() {
-            "obj" => Some(Self::Obj),
-            "ply" => Some(Self::Ply),
-            // The reader says what to do with binary files.
-            "usda" | "usd" | "usdc" | "usdz" => Some(Self::Usda),
-            _ => None,
-        }
-    }
-
-    /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.
-    pub fn of_content(bytes: &[u8]) -> Self {
-        match Kind::of(bytes) {
-            Some(Kind::Cage(format)) => format,
-            Some(Kind::Other(_)) | None => Self::Obj,
-        }
-    }
-
     /// Reads `bytes` as a file of this kind; of USD the mesh at the path `prim`, or the only one.
     ///
     /// # Errors
@@ -88,6 +42,25 @@ impl Format {
             Self::Ply => ply::read(bytes)?.into(),
             Self::Usda => usd::read(bytes, prim)?.into(),
         })
+    }
+
+    /// Reads `bytes` as a file of this kind, of USD the only mesh, and checks the mesh; what was
+    /// ignored is told beside the cage.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Format::read`] and [`Loaded::check`]. The message names vertices and faces as the
+    /// file counts them, with their lines if it is text, and lists 20 faults at most.
+    ///
+    /// ```
+    /// use evenlight::io::load::Format;
+    ///
+    /// let error = Format::Obj.read_cage(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n").unwrap_err();
+    /// let expected = "face 1 (line 4) comes to vertex 2 (line 2) more than once: ";
+    /// assert!(error.to_string().starts_with(expected));
+    /// ```
+    pub fn read_cage(self, bytes: &[u8]) -> Result<(Cage, Vec<Notice>), LoadError> {
+        self.read(bytes, None)?.check()
     }
 }
 
@@ -110,19 +83,48 @@ impl Loaded {
     /// As [`Cage::new`], in the numbers of the file.
     pub fn check(self) -> Result<(Cage, Vec<Notice>), LoadError> {
         let Self { mesh, naming, mut notices } = self;
+        let tags = mesh.tags.clone();
         match Cage::new(mesh) {
             Ok(cage) => {
                 let of_mesh = cage.warnings().iter().map(|w| Notice::of_warning(w, &naming));
                 notices.extend(of_mesh);
                 Ok((cage, notices))
             }
-            Err(error) => Err(LoadError::Check(Box::new(Refusal { error, naming, notices }))),
+            Err(error) => {
+                let lines = error.errors.iter().map(|fault| naming.line(fault, &tags)).collect();
+                Err(LoadError::Check(Box::new(Refusal { error, naming, lines, notices })))
+            }
         }
+    }
+}
+
+impl From<Obj> for Loaded {
+    fn from(obj: Obj) -> Self {
+        let Obj { mesh, source, skipped, unknown_tags, remarks } = obj;
+        let skipped = skipped.into_iter().map(Notice::Skipped);
+        let tags = unknown_tags.into_iter().map(Notice::UnknownTag);
+        let notices = skipped.chain(tags).chain(remarks.into_iter().map(Notice::Remark)).collect();
+        Self { mesh, naming: Naming::Lines(source), notices }
+    }
+}
+
+impl From<Ply> for Loaded {
+    fn from(Ply { mesh, lines, remarks }: Ply) -> Self {
+        let notices = remarks.into_iter().map(Notice::Remark).collect();
+        Self { mesh, naming: Naming::LinesFromZero(lines), notices }
+    }
+}
+
+impl From<Usd> for Loaded {
+    fn from(Usd { mesh, lines, remarks, .. }: Usd) -> Self {
+        let notices = remarks.into_iter().map(Notice::Remark).collect();
+        Self { mesh, naming: Naming::LinesFromZero(lines), notices }
     }
 }
 
 /// What a file calls its vertices and faces.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Naming {
     /// By their numbers from 1, and by lines.
     Lines(obj::Source),
@@ -130,28 +132,41 @@ pub enum Naming {
     LinesFromZero(Lines),
 }
 
-/// The lines, from 1, on which vertices and faces begin in a file that counts them from 0; empty
-/// where they are not known, as in binary files.
-///
-/// As [`Names`] it calls a vertex "5 (line 17)": its number, from 0, and its line.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Lines {
-    pub(super) vertices: Vec<u32>,
-    pub(super) faces: Vec<u32>,
-}
-
-impl Names for Lines {
-    fn vertex(&self, vertex: VertexId) -> String {
-        numbered(vertex.0, self.vertices.get(vertex.index()))
+impl Naming {
+    /// The line on which a vertex stands, if it is known.
+    pub fn vertex_line(&self, vertex: VertexId) -> Option<u32> {
+        match self {
+            Self::Lines(source) => source.vertex_line(vertex),
+            Self::LinesFromZero(Lines { vertices, .. }) => vertices.get(vertex.index()).copied(),
+        }
     }
 
-    fn face(&self, face: FaceId) -> String {
-        numbered(face.0, self.faces.get(face.index()))
+    /// The line on which a face begins, if it is known.
+    pub fn face_line(&self, face: FaceId) -> Option<u32> {
+        match self {
+            Self::Lines(source) => source.face_line(face),
+            Self::LinesFromZero(Lines { faces, .. }) => faces.get(face.index()).copied(),
+        }
     }
-}
 
-fn numbered(id: u32, line: Option<&u32>) -> String {
-    line.map_or_else(|| id.to_string(), |line| format!("{id} (line {line})"))
+    /// The line where a fault of a mesh with `tags` is to be mended: that of the tag, or else the
+    /// first face, or else the first vertex that it is about.
+    fn line(&self, fault: &MeshError, tags: &Tags) -> Option<u32> {
+        match (fault, self) {
+            (
+                MeshError::UnknownTag { what } | MeshError::Sharpness { what, .. },
+                Self::Lines(source),
+            ) => source.tag_line(*what, tags),
+            (MeshError::UnknownTag { .. } | MeshError::Sharpness { .. }, _) => None,
+            _ => self.line_of(&fault.marks()),
+        }
+    }
+
+    /// The line of the first face among `marks`, or else of the first vertex.
+    fn line_of(&self, marks: &Marks) -> Option<u32> {
+        let face = marks.faces.first().and_then(|face| self.face_line(*face));
+        face.or_else(|| marks.vertices.first().and_then(|vertex| self.vertex_line(*vertex)))
+    }
 }
 
 impl Names for Naming {
@@ -172,16 +187,19 @@ impl Names for Naming {
 
 /// Something in a file that was ignored or completed.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Notice {
     /// The lines with a tag that is not known.
     UnknownTag(UnknownTag),
     /// The lines of groups, materials, normals and the like.
     Skipped(Skipped),
-    /// The vertices in no face.
-    UnusedVertices {
-        /// How many there are.
-        count: usize,
-        /// The sentence that names the first of them.
+    /// What the check of the mesh accepted, as vertices in no face.
+    OfMesh {
+        /// What it is.
+        warning: Warning,
+        /// The line of the first vertex that it is about, if it is known.
+        line: Option<u32>,
+        /// The sentence, in the numbers of the file.
         message: String,
     },
     /// Anything else, in a sentence.
@@ -189,12 +207,9 @@ pub enum Notice {
 }
 
 impl Notice {
-    fn of_warning(warning: &Warning, names: &dyn Names) -> Self {
-        match warning {
-            Warning::UnusedVertices(vertices) => {
-                Self::UnusedVertices { count: vertices.len(), message: warning.describe(names) }
-            }
-        }
+    fn of_warning(warning: &Warning, naming: &Naming) -> Self {
+        let line = naming.line_of(&warning.marks());
+        Self::OfMesh { warning: warning.clone(), line, message: warning.describe(naming) }
     }
 }
 
@@ -203,13 +218,14 @@ impl fmt::Display for Notice {
         match self {
             Self::UnknownTag(tag) => tag.fmt(f),
             Self::Skipped(skipped) => skipped.fmt(f),
-            Self::UnusedVertices { message, .. } | Self::Remark(message) => f.write_str(message),
+            Self::OfMesh { message, .. } | Self::Remark(message) => f.write_str(message),
         }
     }
 }
 
 /// Why a file gives no cage.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LoadError {
     /// It is no OBJ file.
     #[error(transparent)]
@@ -226,23 +242,6 @@ pub enum LoadError {
 }
 
 impl LoadError {
-    /// Every fault in a sentence of its own.
-    pub fn faults(&self) -> Vec<String> {
-        match self {
-            Self::Obj(error) => {
-                let more = (error.num_more > 0)
-                    .then(|| format!("and {} more lines that cannot be read", error.num_more));
-                error.faults.iter().map(ToString::to_string).chain(more).collect()
-            }
-            Self::Ply(error) => vec![error.to_string()],
-            Self::Usd(error) => vec![error.to_string()],
-            Self::Check(refusal) => {
-                let faults = refusal.error.errors.iter();
-                faults.map(|fault| fault.describe(&refusal.naming)).collect()
-            }
-        }
-    }
-
     /// What was ignored or completed before the fault was found.
     pub fn notices(&self) -> &[Notice] {
         match self {
@@ -259,6 +258,8 @@ pub struct Refusal {
     pub error: CheckError,
     /// What the file calls its vertices and faces.
     pub naming: Naming,
+    /// The line where each fault is to be mended, if it is known.
+    pub lines: Vec<Option<u32>>,
     /// What was ignored or completed.
     pub notices: Vec<Notice>,
 }

@@ -17,13 +17,13 @@
 //!
 //! A line ends with LF, CRLF or CR; `\` at its end joins the next one to it, except in a
 //! comment. Blanks may stand anywhere between words, also before the first. What is read over is
-//! reported in one sentence, every other tag is counted and reported once. Only words that matter are looked at: the bytes need not be
-//! UTF-8, and a byte order mark is skipped.
+//! reported in one sentence, every other tag is counted and reported once. Only words that matter
+//! are looked at: the bytes need not be UTF-8, and a byte order mark is skipped.
 //!
 //! Tags are those of the shapes that OpenSubdiv is tested with; they count from 0:
 //!
 //! ```text
-//! t crease 2/1/0 V W SHARPNESS               or several pairs, with one number for all or one each;
+//! t crease 2/1/0 V W SHARPNESS               or several pairs, one number for all or one each;
 //!                                            or a chain: an odd number of vertices, or one number
 //!                                            for each of its edges
 //! t corner 1/1/0 V SHARPNESS                 or several, likewise
@@ -45,8 +45,7 @@
 use std::fmt;
 use std::io::Write;
 
-use super::load::{LoadError, Loaded, Naming, Notice};
-use crate::mesh::{Cage, FaceId, Mesh, Names, Tags, VertexId};
+use crate::mesh::{FaceId, Mesh, Names, Tagged, Tags, VertexId};
 
 mod channels;
 mod fault;
@@ -75,16 +74,6 @@ pub struct Obj {
     pub remarks: Vec<String>,
 }
 
-impl From<Obj> for Loaded {
-    fn from(obj: Obj) -> Self {
-        let Obj { mesh, source, skipped, unknown_tags, remarks } = obj;
-        let skipped = skipped.into_iter().map(Notice::Skipped);
-        let tags = unknown_tags.into_iter().map(Notice::UnknownTag);
-        let notices = skipped.chain(tags).chain(remarks.into_iter().map(Notice::Remark)).collect();
-        Self { mesh, naming: Naming::Lines(source), notices }
-    }
-}
-
 /// Reads an OBJ file. One pass; time and memory are linear in its length.
 ///
 /// The mesh is not checked, but every face's numbers exist.
@@ -108,24 +97,6 @@ impl From<Obj> for Loaded {
 /// ```
 pub fn read(bytes: &[u8]) -> Result<Obj, ReadError> {
     parse::read(bytes, parse::Limits::default())
-}
-
-/// Reads an OBJ file and checks its mesh; what was ignored is told beside the cage.
-///
-/// # Errors
-///
-/// As [`read`] and [`Cage::new`]. The message names vertices and faces as the file counts
-/// them, from 1, with their lines, and lists 20 faults at most.
-///
-/// ```
-/// use evenlight::io::obj;
-///
-/// let error = obj::read_cage(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n").unwrap_err();
-/// let expected = "face 1 (line 4) comes to vertex 2 (line 2) more than once: ";
-/// assert!(error.to_string().starts_with(expected));
-/// ```
-pub fn read_cage(bytes: &[u8]) -> Result<(Cage, Vec<Notice>), LoadError> {
-    Loaded::from(read(bytes)?).check()
 }
 
 /// The lines of a file on which its vertices and faces begin, counted from 1.
@@ -155,6 +126,17 @@ impl Source {
     /// The line on which `face` begins; `None` if there is no such face.
     pub fn face_line(&self, face: FaceId) -> Option<u32> {
         self.face_lines.get(face.index()).copied()
+    }
+
+    /// The line of the first of `tags` that is on `what`.
+    pub(super) fn tag_line(&self, what: Tagged, tags: &Tags) -> Option<u32> {
+        let TagLines { creases, corners, holes } = &self.tag_lines;
+        let at = |k: Option<usize>, lines: &[u32]| lines.get(k?).copied();
+        match what {
+            Tagged::Edge(edge) => at(tags.creases.iter().position(|c| c.edge == edge), creases),
+            Tagged::Vertex(v) => at(tags.corners.iter().position(|c| c.vertex == v), corners),
+            Tagged::Face(face) => at(tags.holes.iter().position(|&hole| hole == face), holes),
+        }
     }
 
     /// What is in `tags` and not known here yet is of `line`.

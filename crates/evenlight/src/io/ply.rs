@@ -32,7 +32,7 @@
 use std::fmt;
 use std::io::Write;
 
-use super::load::{Lines, Loaded, Naming, Notice};
+use super::lines::Lines;
 use crate::mesh::Mesh;
 
 mod body;
@@ -53,13 +53,6 @@ pub struct Ply {
     pub lines: Lines,
     /// What was skipped or completed, in sentences.
     pub remarks: Vec<String>,
-}
-
-impl From<Ply> for Loaded {
-    fn from(Ply { mesh, lines, remarks }: Ply) -> Self {
-        let notices = remarks.into_iter().map(Notice::Remark).collect();
-        Self { mesh, naming: Naming::LinesFromZero(lines), notices }
-    }
 }
 
 /// Why a file cannot be read: its first fault.

@@ -34,7 +34,7 @@
 use std::fmt;
 use std::io::Write;
 
-use super::load::{Lines, Loaded, Naming, Notice};
+use super::lines::Lines;
 use crate::mesh::Mesh;
 
 mod attributes;
@@ -57,13 +57,6 @@ pub struct Usd {
     pub lines: Lines,
     /// What was skipped or changed, in sentences.
     pub remarks: Vec<String>,
-}
-
-impl From<Usd> for Loaded {
-    fn from(Usd { mesh, lines, remarks, .. }: Usd) -> Self {
-        let notices = remarks.into_iter().map(Notice::Remark).collect();
-        Self { mesh, naming: Naming::LinesFromZero(lines), notices }
-    }
 }
 
 /// Why a file cannot be read: its first fault.

@@ -255,9 +255,9 @@ impl Splitter<'_> {
             }
     }
 
-    /// The semi-sharp edges at `v` that are not of fan `own`, which is so sharp itself. Beside a fan
-    /// with semi-sharp edges, which is a corner for some refinements, one without is a corner for
-    /// as long; but what is sharp itself depends on nothing else.
+    /// The semi-sharp edges at `v` that are not of fan `own`, which is so sharp itself. Beside a
+    /// fan with semi-sharp edges, which is a corner for some refinements, one without is a corner
+    /// for as long; but what is sharp itself depends on nothing else.
     fn beyond(&self, v: VertexId, fans: &[Fan], own: usize, sharpness: f64) -> Beyond {
         let depends = self.has_dependence()
             && fans.len() == 2

@@ -25,8 +25,6 @@
 
 mod primvars;
 
-pub use primvars::PrimvarFault;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 

@@ -6,13 +6,14 @@
 
 use std::fmt;
 
-use super::{FaceId, PrimvarFault, VertexId};
+use super::{FaceId, VertexId};
 use crate::point::Point;
 
 /// One fault of a mesh.
 ///
 /// Shown with the numbers of the library, from 0; [`MeshError::describe`] takes other names.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum MeshError {
     /// There is no face.
     NoFaces {
@@ -255,8 +256,78 @@ pub(crate) fn one_per_line(listed: Vec<String>, total: usize) -> String {
     text
 }
 
-/// Something that was accepted but should be known.
+/// What is wrong with a primvar. Values and corners are counted from 0.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PrimvarFault {
+    /// An earlier primvar has its name.
+    RepeatedName,
+    /// There are no numbers in a value, or more than four.
+    Width {
+        /// The numbers in a value.
+        width: usize,
+    },
+    /// The last value is not complete.
+    BrokenValue {
+        /// How many numbers there are.
+        numbers: usize,
+        /// The numbers in a value.
+        width: usize,
+    },
+    /// There are too few or too many values of vertices, or indices of corners.
+    Count {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        needed: usize,
+        /// Whether there should be one for every corner; else for every vertex.
+        corners: bool,
+    },
+    /// A corner has a value that does not exist.
+    IndexOutOfRange {
+        /// The corner, of all corners of all faces.
+        corner: usize,
+        /// The number of its value.
+        index: u32,
+        /// How many values there are.
+        count: usize,
+    },
+    /// A value is NaN or infinite.
+    NotFinite {
+        /// The value.
+        value: usize,
+    },
+}
+
+impl fmt::Display for PrimvarFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::RepeatedName => write!(f, "there is another primvar of that name: rename one"),
+            Self::Width { width } => {
+                write!(f, "has {width} numbers per value: give it 1 to 4, or split it")
+            }
+            Self::BrokenValue { numbers, width } => {
+                write!(f, "has {numbers} numbers, no multiple of {width}: complete its last value")
+            }
+            Self::Count { found, needed, corners } => {
+                let what = if *corners { ["indices", "corners"] } else { ["values", "vertices"] };
+                let [own, of] = what;
+                write!(f, "has {found} {own} for {needed} {of}: give it one for each")
+            }
+            Self::IndexOutOfRange { corner, index, count } => write!(
+                f,
+                "corner {corner} has value {index}, but there are {count} values: correct the index"
+            ),
+            Self::NotFinite { value } => {
+                write!(f, "value {value} is not finite: give it finite numbers")
+            }
+        }
+    }
+}
+
+/// Something that was accepted but should be known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Warning {
     /// Vertices that are in no face; they are ignored, and the others keep their numbers.
     UnusedVertices(Vec<VertexId>),

@@ -59,6 +59,7 @@ pub struct Repaired {
 
 /// What was done to a mesh, in its numbers from before the repairs.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Change {
     /// Vertices became others.
     Merged {
@@ -138,6 +139,7 @@ fn count(count: usize, one: &str, many: &str) -> String {
 
 /// What cannot be done to a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Obstacle {
     /// A piece is one-sided, as a Moebius strip is: whichever faces are flipped, some disagree.
     OneSided {

@@ -11,17 +11,19 @@ mod fan;
 mod fault;
 pub mod fix;
 pub mod isolation;
+mod marks;
 mod nets;
-mod refine;
+pub(crate) mod refine;
 pub(crate) mod sharpness;
 mod tags;
 mod topology;
 
 pub(crate) use check::check_values;
-pub use check::{Cage, PrimvarFault, ValuesError};
-pub use fault::{CheckError, LibraryNumbers, MeshError, Names, Tagged, Warning};
+pub use check::{Cage, ValuesError};
+pub use fault::{CheckError, LibraryNumbers, MeshError, Names, PrimvarFault, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
-pub(crate) use nets::{cnet_vertices, fan_vertices};
+pub use marks::Marks;
+pub(crate) use nets::{RegularNet, cnet_vertices, fan_vertices};
 pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,
     Primvar, Tags,

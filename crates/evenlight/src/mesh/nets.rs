@@ -9,7 +9,8 @@ use crate::point::{add_scaled, scale};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RegularNet {
     pub(crate) level: u8,
-    /// Bit k is set if edge k of the face (0 at v = 0, 1 at u = 1, 2 at v = 1, 3 at u = 0) is sharp.
+    /// Bit k is set if edge k of the face (0 at v = 0, 1 at u = 1, 2 at v = 1, 3 at u = 0) is
+    /// sharp.
     pub(crate) sharp_sides: u8,
     pub(crate) vertices: [VertexId; 16],
 }
@@ -118,6 +119,37 @@ impl RegularNet {
             }
             if is_sharp(2) {
                 extend(4 * i + 3, 4 * i + 2, 4 * i + 1);
+            }
+        }
+    }
+}
+
+impl RegularNet {
+    /// Moves the weights of nodes beyond sharp edges to those that they are the mirror images of.
+    pub(crate) fn fold<const R: usize>(&self, w: &mut [[f64; R]; 16]) {
+        let is_sharp = |k: usize| self.sharp_sides >> k & 1 == 1;
+        let mut fold = |from: usize, to: usize, next: usize| {
+            let moved = std::mem::replace(&mut w[from], [0.0; R]);
+            for (r, x) in moved.into_iter().enumerate() {
+                w[to][r] += 2.0 * x;
+                w[next][r] -= x;
+            }
+        };
+        // In the reverse order of `mirror`.
+        for i in 0..4 {
+            if is_sharp(0) {
+                fold(4 * i, 4 * i + 1, 4 * i + 2);
+            }
+            if is_sharp(2) {
+                fold(4 * i + 3, 4 * i + 2, 4 * i + 1);
+            }
+        }
+        for j in 0..4 {
+            if is_sharp(3) {
+                fold(j, 4 + j, 8 + j);
+            }
+            if is_sharp(1) {
+                fold(12 + j, 8 + j, 4 + j);
             }
         }
     }

@@ -138,15 +138,72 @@ impl Level {
         sharpness: &Sharpness,
         values: &[[f64; N]],
     ) -> Vec<[f64; N]> {
-        let masks = Masks { coarse, sharpness, values };
-        self.origins
-            .iter()
-            .map(|&origin| match origin {
-                Origin::Face(f) => masks.face(f),
-                Origin::Edge(h) => masks.edge(h),
-                Origin::Vertex(v) => masks.vertex(v),
-            })
-            .collect()
+        let masks = Masks { coarse, sharpness, at: |v: VertexId| values[v.index()] };
+        self.origins.iter().map(|&origin| masks.of(origin)).collect()
+    }
+
+    /// The weights of coarse vertices in a refined vertex. What would need the faces beyond the end of
+    /// a refined part has weights that are NaN.
+    pub(crate) fn mask(&self, coarse: &Topology, sharpness: &Sharpness, v: VertexId) -> Mask {
+        let unit = |v: VertexId| Mask { terms: vec![(v, 1.0)] };
+        Masks { coarse, sharpness, at: unit }.of(self.origin(v))
+    }
+}
+
+/// What refinement takes means of.
+pub(crate) trait Blended: Sized {
+    /// Nothing.
+    fn zero() -> Self;
+    /// What is not known, of a vertex that itself is `at`.
+    fn unknown(at: Self) -> Self;
+    /// Everything multiplied or divided by a number.
+    fn map(self, f: impl Fn(f64) -> f64) -> Self;
+    /// Adds `w` `other`.
+    fn add_scaled(&mut self, w: f64, other: Self);
+}
+
+impl<const N: usize> Blended for [f64; N] {
+    fn zero() -> Self {
+        [0.0; N]
+    }
+
+    fn unknown(_: Self) -> Self {
+        [f64::NAN; N]
+    }
+
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        self.map(f)
+    }
+
+    fn add_scaled(&mut self, w: f64, other: Self) {
+        for (s, x) in self.iter_mut().zip(other) {
+            *s += w * x;
+        }
+    }
+}
+
+/// The weights of coarse vertices in a refined one; those of a vertex add up.
+#[derive(Clone, Debug)]
+pub(crate) struct Mask {
+    pub(crate) terms: Vec<(VertexId, f64)>,
+}
+
+impl Blended for Mask {
+    fn zero() -> Self {
+        Self { terms: Vec::new() }
+    }
+
+    fn unknown(at: Self) -> Self {
+        at.map(|_| f64::NAN)
+    }
+
+    fn map(mut self, f: impl Fn(f64) -> f64) -> Self {
+        self.terms.iter_mut().for_each(|(_, w)| *w = f(*w));
+        self
+    }
+
+    fn add_scaled(&mut self, w: f64, other: Self) {
+        self.terms.extend(other.map(|x| w * x).terms);
     }
 }
 
@@ -216,28 +273,37 @@ impl Builder<'_> {
 }
 
 /// The refinement masks of Catmull-Clark with creases and corners.
-struct Masks<'a, const N: usize> {
+struct Masks<'a, F> {
     coarse: &'a Topology,
     sharpness: &'a Sharpness,
-    values: &'a [[f64; N]],
+    /// The value of a coarse vertex.
+    at: F,
 }
 
-impl<const N: usize> Masks<'_, N> {
-    fn at(&self, v: VertexId) -> [f64; N] {
-        self.values[v.index()]
+impl<V: Blended, F: Fn(VertexId) -> V> Masks<'_, F> {
+    fn of(&self, origin: Origin) -> V {
+        match origin {
+            Origin::Face(f) => self.face(f),
+            Origin::Edge(h) => self.edge(h),
+            Origin::Vertex(v) => self.vertex(v),
+        }
     }
 
-    fn face(&self, f: FaceId) -> [f64; N] {
+    fn at(&self, v: VertexId) -> V {
+        (self.at)(v)
+    }
+
+    fn face(&self, f: FaceId) -> V {
         mean(self.coarse.faces().corners(f).iter().map(|&v| self.at(v)))
     }
 
-    fn edge(&self, h: HalfEdgeId) -> [f64; N] {
+    fn edge(&self, h: HalfEdgeId) -> V {
         let sharpness = self.sharpness.edge(self.coarse, h);
         if sharpness == 0.0 {
             return self.smooth_edge(h);
         }
         if sharpness.is_nan() {
-            return [f64::NAN; N];
+            return V::unknown(self.at(self.coarse.origin(h)));
         }
         let ends = [self.coarse.origin(h), self.coarse.target(h)];
         let middle = mean(ends.map(|v| self.at(v)));
@@ -250,16 +316,16 @@ impl<const N: usize> Masks<'_, N> {
         blend(sharpness, middle, self.smooth_edge(h))
     }
 
-    fn smooth_edge(&self, h: HalfEdgeId) -> [f64; N] {
+    fn smooth_edge(&self, h: HalfEdgeId) -> V {
         let ends = [self.at(self.coarse.origin(h)), self.at(self.coarse.target(h))];
         let Some(twin) = self.coarse.twin(h) else { return mean(ends) };
         mean(ends.into_iter().chain([h, twin].map(|h| self.face(self.coarse.face(h)))))
     }
 
-    fn vertex(&self, v: VertexId) -> [f64; N] {
+    fn vertex(&self, v: VertexId) -> V {
         if self.sharpness.is_empty() {
             let is_cut = self.coarse.is_boundary(v);
-            return if is_cut { [f64::NAN; N] } else { self.smooth_vertex(v) };
+            return if is_cut { V::unknown(self.at(v)) } else { self.smooth_vertex(v) };
         }
         if !self.is_touched(v) {
             return self.smooth_vertex(v);
@@ -268,7 +334,7 @@ impl<const N: usize> Masks<'_, N> {
         let vertex = self.sharpness.vertex(v);
         let rule = rule_of(vertex, spokes.iter().map(|spoke| spoke.sharpness));
         if spokes.iter().any(|spoke| spoke.sharpness.is_nan()) {
-            return [f64::NAN; N];
+            return V::unknown(self.at(v));
         }
         let now = self.by_rule(v, rule, &spokes);
         if rule == VertexRule::Smooth {
@@ -298,14 +364,14 @@ impl<const N: usize> Masks<'_, N> {
             || self.coarse.ring(v).any(|h| edge(h) != 0.0)
     }
 
-    fn by_rule(&self, v: VertexId, rule: VertexRule, spokes: &[Spoke]) -> [f64; N] {
+    fn by_rule(&self, v: VertexId, rule: VertexRule, spokes: &[Spoke]) -> V {
         match rule {
             VertexRule::Smooth => self.smooth_vertex(v),
             VertexRule::Corner => self.at(v),
             VertexRule::Crease => {
                 let mut sum = self.at(v).map(|x| 0.75 * x);
                 for spoke in spokes.iter().filter(|spoke| spoke.sharpness > 0.0) {
-                    add_scaled(&mut sum, 0.125, self.at(spoke.end));
+                    sum.add_scaled(0.125, self.at(spoke.end));
                 }
                 sum
             }
@@ -313,12 +379,12 @@ impl<const N: usize> Masks<'_, N> {
     }
 
     /// (Q + 2 R + (n-3) S) / n with the means Q of the face points, R of the edge midpoints.
-    fn smooth_vertex(&self, v: VertexId) -> [f64; N] {
+    fn smooth_vertex(&self, v: VertexId) -> V {
         let n = self.coarse.num_sectors(v) as f64;
         let mut sum = self.at(v).map(|x| (n - 2.0) / n * x);
         for h in self.coarse.ring(v) {
-            add_scaled(&mut sum, 1.0 / (n * n), self.face(self.coarse.face(h)));
-            add_scaled(&mut sum, 1.0 / (n * n), self.at(self.coarse.target(h)));
+            sum.add_scaled(1.0 / (n * n), self.face(self.coarse.face(h)));
+            sum.add_scaled(1.0 / (n * n), self.at(self.coarse.target(h)));
         }
         sum
     }
@@ -328,23 +394,17 @@ fn rule_of(vertex: f64, edges: impl Iterator<Item = f64>) -> VertexRule {
     VertexRule::of(vertex, edges.filter(|&s| s > 0.0).count())
 }
 
-fn add_scaled<const N: usize>(sum: &mut [f64; N], w: f64, p: [f64; N]) {
-    for (s, x) in sum.iter_mut().zip(p) {
-        *s += w * x;
-    }
-}
-
 /// w a + (1 - w) b.
-fn blend<const N: usize>(w: f64, a: [f64; N], b: [f64; N]) -> [f64; N] {
+fn blend<V: Blended>(w: f64, a: V, b: V) -> V {
     let mut sum = a.map(|x| w * x);
-    add_scaled(&mut sum, 1.0 - w, b);
+    sum.add_scaled(1.0 - w, b);
     sum
 }
 
-fn mean<const N: usize>(points: impl IntoIterator<Item = [f64; N]>) -> [f64; N] {
-    let (mut sum, mut count) = ([0.0; N], 0.0);
+fn mean<V: Blended>(points: impl IntoIterator<Item = V>) -> V {
+    let (mut sum, mut count) = (V::zero(), 0.0);
     for p in points {
-        add_scaled(&mut sum, 1.0, p);
+        sum.add_scaled(1.0, p);
         count += 1.0;
     }
     sum.map(|x| x / count)

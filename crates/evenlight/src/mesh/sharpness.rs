@@ -209,7 +209,8 @@ impl Sharpness {
         own.chain(self.beyond.get(&v).into_iter().flat_map(Beyond::all)).collect()
     }
 
-    /// How what makes `v` itself a corner changes: its sharpness, or that of the edges that hold it.
+    /// How what makes `v` itself a corner changes: its sharpness, or that of the edges that hold
+    /// it.
     pub(crate) fn vertex_changes(&self, topology: &Topology, v: VertexId) -> Vec<[f64; 2]> {
         match (self.beyond.get(&v), self.child_beyond(topology, v)) {
             (Some(_), Some(then)) if then.lingers => vec![[self.vertex(v), LINGERING]],

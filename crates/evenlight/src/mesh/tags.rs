@@ -4,6 +4,7 @@
 //! programs that cages come from.
 
 use super::{FaceId, VertexId};
+use crate::names::names;
 
 /// What happens at the boundary of an open cage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -17,6 +18,12 @@ pub enum BoundaryRule {
     EdgeAndCorner,
 }
 
+names! { BoundaryRule, "boundary rule":
+    None => "none",
+    EdgeOnly => "edge-only",
+    EdgeAndCorner => "edge-and-corner",
+}
+
 /// How the sharpness of a crease falls from one refinement to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum CreaseMethod {
@@ -26,6 +33,8 @@ pub enum CreaseMethod {
     /// Averaged along the crease as in Chaikin's corner cutting, then by one.
     Chaikin,
 }
+
+names! { CreaseMethod, "crease method": Uniform => "uniform", Chaikin => "chaikin" }
 
 /// Which parts of a face-varying channel are interpolated linearly instead of smoothly.
 ///
@@ -49,6 +58,15 @@ pub enum FaceVaryingRule {
     Boundaries,
     /// Everything is linear: bilinear over every quad.
     All,
+}
+
+names! { FaceVaryingRule, "face-varying rule":
+    None => "none",
+    CornersOnly => "corners-only",
+    CornersPlus1 => "corners-plus1",
+    CornersPlus2 => "corners-plus2",
+    Boundaries => "boundaries",
+    All => "all",
 }
 
 /// The sharpness from which on an edge or vertex is sharp for ever.
@@ -130,8 +148,8 @@ impl Primvar {
         matches!(self.name.as_str(), "st" | "uv")
     }
 
-    /// Whether files take this for a colour: three numbers, or four with the opacity, under the name
-    /// `color` (of OBJ and PLY) or `displayColor` (of USD).
+    /// Whether files take this for a colour: three numbers, or four with the opacity, under the
+    /// name `color` (of OBJ and PLY) or `displayColor` (of USD).
     pub fn is_color(&self) -> bool {
         matches!(self.width, 3 | 4) && matches!(self.name.as_str(), "color" | "displayColor")
     }

@@ -149,8 +149,8 @@ impl Topology {
         if errors.is_empty() { Ok(topology) } else { Err(errors) }
     }
 
-    /// The same faces over other vertices, cut along edges at whose ends the two faces have different
-    /// ones: what [`Topology::build`] finds by sorting.
+    /// The same faces over other vertices, cut along edges at whose ends the two faces have
+    /// different ones: what [`Topology::build`] finds by sorting.
     ///
     /// # Errors
     ///

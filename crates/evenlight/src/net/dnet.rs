@@ -19,6 +19,7 @@
 use std::sync::OnceLock;
 
 use super::{CNet, NodeRef, cnet_node};
+use crate::dense::Matrix;
 use crate::point::{add_scaled, sub};
 
 /// The number of nodes that a sector of a d-net owns.
@@ -88,6 +89,7 @@ impl<const N: usize> DNet<N> {
 
 /// What the nodes of a d-net are control points of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Spline {
     /// Uniform bi-3 splines with a knot at every half step.
     BiCubic,
@@ -140,12 +142,7 @@ fn center_weights(n: usize, spline: Spline) -> [f64; 12] {
             }
         }
     }
-    let mut normal = [[0.0; 7]; 7];
-    for (i, row) in normal.iter_mut().enumerate() {
-        for (j, entry) in row.iter_mut().enumerate() {
-            *entry = r.iter().map(|x| x[i] * x[j]).sum();
-        }
-    }
+    let r = Matrix::from_rows(7, &r.map(Vec::from));
     let count = n as f64;
     // The centre of a c-net, eq. (3), with means in place of sums.
     let mut w = [0.0; 7];
@@ -154,25 +151,10 @@ fn center_weights(n: usize, spline: Spline) -> [f64; 12] {
     } else {
         [count, 4.0, 1.0].map(|x| x / (count + 5.0))
     };
-    let y = solve_definite(normal, w);
-    r.map(|row| row.iter().zip(&y).map(|(a, b)| a * b).sum::<f64>() / count)
-}
-
-/// Solves a x = b for a positive definite matrix, by elimination, which needs no pivots then.
-fn solve_definite(mut a: [[f64; 7]; 7], mut b: [f64; 7]) -> [f64; 7] {
-    for k in 0..7 {
-        for i in k + 1..7 {
-            let factor = a[i][k] / a[k][k];
-            let pivot_row = a[k];
-            a[i].iter_mut().zip(pivot_row).for_each(|(x, y)| *x -= factor * y);
-            b[i] -= factor * b[k];
-        }
-    }
-    for k in (0..7).rev() {
-        let known: f64 = (k + 1..7).map(|j| a[k][j] * b[j]).sum();
-        b[k] = (b[k] - known) / a[k][k];
-    }
-    b
+    let transposed = r.transposed();
+    let y = transposed.times(&r).solve(Matrix::from_rows(1, &w.map(|x| vec![x])));
+    let weights = r.times(&y).scaled(1.0 / count);
+    std::array::from_fn(|k| weights[(k, 0)])
 }
 
 #[cfg(test)]

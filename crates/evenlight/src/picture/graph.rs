@@ -45,8 +45,8 @@ impl Default for GraphOptions {
     }
 }
 
-/// Draws the graphs of the eigenfunctions numbered `which`, each scaled to the same height and named
-/// by its eigenvalue, mode and parity.
+/// Draws the graphs of the eigenfunctions numbered `which`, each scaled to the same height and
+/// named by its eigenvalue, mode and parity.
 ///
 /// # Errors
 ///
@@ -124,7 +124,7 @@ struct Graph {
 
 /// A vertex: in samples from the left and the top and towards the eye; its normal in the picture;
 /// its height, from -1 to 1.
-type Corner = (Vector, Vector, f64);
+type GraphVertex = (Vector, Vector, f64);
 
 impl Graph {
     fn new(functions: &Eigenfunctions, k: usize, options: &GraphOptions, size: [usize; 2]) -> Self {
@@ -174,7 +174,7 @@ impl Graph {
             let cells = (CELLS[0] >> ring).max(CELLS[1]);
             let corner =
                 |i: usize, j: usize| self.corner(patch, [i, j].map(|k| k as f64 / cells as f64));
-            let corners: Vec<Vec<Corner>> =
+            let corners: Vec<Vec<GraphVertex>> =
                 (0..=cells).map(|i| (0..=cells).map(|j| corner(i, j)).collect()).collect();
             let darker = if ring % 2 == 1 { ODD_RING } else { 1.0 };
             for (i, j) in (0..cells).flat_map(|i| (0..cells).map(move |j| (i, j))) {
@@ -193,7 +193,7 @@ impl Graph {
         pixels.collect()
     }
 
-    fn corner(&self, patch: &Patch, [u, v]: [f64; 2]) -> Corner {
+    fn corner(&self, patch: &Patch, [u, v]: [f64; 2]) -> GraphVertex {
         let jet = patch.jet(u, v);
         let p = self.camera.project(jet.p);
         let normal = self.camera.turned(cross(jet.du, jet.dv));
@@ -201,7 +201,7 @@ impl Graph {
     }
 
     /// Enters a triangle into the depth buffer.
-    fn cover(&self, buffer: &mut [Option<(f64, Light)>], corners: [Corner; 3], darker: f64) {
+    fn cover(&self, buffer: &mut [Option<(f64, Light)>], corners: [GraphVertex; 3], darker: f64) {
         let [a, b, c] = corners.map(|corner| corner.0);
         let (ab, ac) = (sub(b, a), sub(c, a));
         let area = ab[0] * ac[1] - ab[1] * ac[0];
@@ -223,7 +223,7 @@ impl Graph {
             if weights.iter().any(|&w| w < -1e-9) {
                 continue;
             }
-            let mixed = |of: &dyn Fn(&Corner) -> f64| -> f64 {
+            let mixed = |of: &dyn Fn(&GraphVertex) -> f64| -> f64 {
                 weights.iter().zip(&corners).map(|(w, corner)| w * of(corner)).sum()
             };
             let depth = mixed(&|corner| corner.0[2]);

@@ -26,10 +26,10 @@ mod camera;
 mod canvas;
 mod color;
 mod dice;
+mod font;
 mod graph;
 mod legend;
 mod panel;
-mod pieces;
 mod raster;
 mod shade;
 
@@ -37,14 +37,13 @@ pub use camera::View;
 pub use canvas::Picture;
 pub use graph::{GraphOptions, eigenfunctions};
 
-use embedded_graphics::mono_font::iso_8859_1::FONT_9X18_BOLD;
-use embedded_graphics::text::Alignment;
-
 use crate::Surface;
+use crate::names::names;
 use crate::task::{Cancelled, Steps};
 use camera::Camera;
 use canvas::Label;
 use color::{Light, from_srgb, mix};
+use font::{Alignment, LARGE_BOLD};
 use panel::{Panel, typical_range};
 
 /// The longest side of a picture in pixels.
@@ -64,6 +63,7 @@ const SEPARATOR: [u8; 3] = [176, 184, 194];
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Style {
     /// A material in the light of a studio.
     #[default]
@@ -79,21 +79,12 @@ pub enum Style {
     Patches,
 }
 
-impl Style {
-    /// All styles, in the order in which they are listed to users.
-    pub const ALL: [Self; 5] =
-        [Self::Shaded, Self::Highlight, Self::Gauss, Self::Mean, Self::Patches];
-
-    /// The short name used in commands.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Shaded => "shaded",
-            Self::Highlight => "highlight",
-            Self::Gauss => "gauss",
-            Self::Mean => "mean",
-            Self::Patches => "patches",
-        }
-    }
+names! { Style, "style":
+    Shaded => "shaded",
+    Highlight => "highlight",
+    Gauss => "gauss",
+    Mean => "mean",
+    Patches => "patches",
 }
 
 /// How a picture is drawn.
@@ -268,12 +259,12 @@ fn annotate(
         picture.fill([left, top], [size[0], scale], SEPARATOR);
     }
     if !name.is_empty() {
-        let width = FONT_9X18_BOLD.character_size.width as usize * name.chars().count();
+        let width = LARGE_BOLD.width * name.chars().count();
         let corner = [left + 8 * scale, top + 8 * scale];
         picture.fill(corner, [(width + 12) * scale, 24 * scale], PLATE);
     }
     let mut write = |text: &str, at: [usize; 2], alignment: Alignment| {
-        picture.write(&Label { text, at, alignment, font: &FONT_9X18_BOLD, color: INK, scale });
+        picture.write(&Label { text, at, alignment, font: &LARGE_BOLD, color: INK, scale });
     };
     write(name, [left + 14 * scale, top + 20 * scale], Alignment::Left);
     if empty {

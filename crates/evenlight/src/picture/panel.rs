@@ -4,7 +4,6 @@ use super::camera::Camera;
 use super::canvas::Picture;
 use super::color::{Light, to_srgb};
 use super::dice::{Cell, GAP, dice};
-use super::pieces::Pieces;
 use super::raster::{Seen, Tile, locate};
 use super::shade::{Coat, Painter, curvature};
 use super::{RenderOptions, Style};
@@ -105,7 +104,7 @@ impl<'a> Panel<'a> {
     }
 
     /// What the surface is painted with.
-    fn coat(&self, options: &RenderOptions, range: f64) -> Coat {
+    fn coat(&self, options: &RenderOptions, range: f64) -> Coat<'a> {
         match options.style {
             Style::Shaded => Coat::Clay,
             Style::Highlight => {
@@ -114,7 +113,7 @@ impl<'a> Panel<'a> {
                 Coat::Stripes(HighlightLines::new(axis, self.camera.toward, options.stripes))
             }
             Style::Gauss | Style::Mean => Coat::Curvature(options.style, range),
-            Style::Patches => Coat::Layout(Pieces::of(self.surface)),
+            Style::Patches => Coat::Patches(self.surface),
         }
     }
 

@@ -108,11 +108,11 @@ impl Tile {
 }
 
 /// A corner of a triangle: projected position, and parameters in the quad.
-type Corner = ([f64; 3], [f64; 2]);
+type DicedCorner = ([f64; 3], [f64; 2]);
 
 /// A triangle of a cell, prepared for questions about samples.
 struct Triangle {
-    corners: [Corner; 3],
+    corners: [DicedCorner; 3],
     /// 1 / twice the signed area in the picture.
     per_area: f64,
     /// By how much a weight may be negative and the sample still count as covered.
@@ -121,7 +121,7 @@ struct Triangle {
 
 /// The eight triangles of a cell; those seen exactly edge-on are left out.
 fn triangles(cell: &Cell) -> impl Iterator<Item = Triangle> + '_ {
-    let corner = |i: usize, j: usize| -> Corner {
+    let corner = |i: usize, j: usize| -> DicedCorner {
         (cell.points[i][j], cell.parameters([i as f64, j as f64]))
     };
     let quarters = [(0, 0), (1, 0), (0, 1), (1, 1)];
@@ -132,7 +132,7 @@ fn triangles(cell: &Cell) -> impl Iterator<Item = Triangle> + '_ {
 }
 
 impl Triangle {
-    fn new(corners: [Corner; 3]) -> Option<Self> {
+    fn new(corners: [DicedCorner; 3]) -> Option<Self> {
         let [a, b, c] = corners.map(|(p, _)| [p[0], p[1]]);
         let per_area = 1.0 / turn(a, b, c);
         let length = |p: [f64; 2], q: [f64; 2]| length([q[0] - p[0], q[1] - p[1]]);

@@ -14,11 +14,10 @@
 use super::Style;
 use super::camera::Camera;
 use super::color::{Light, diverging, from_srgb, mix};
-use super::pieces::{Piece, Pieces};
 use super::raster::{Seen, length, parameter_gradients};
 use crate::analyse::highlight::HighlightLines;
 use crate::point::{Vector, dot, scale, unit};
-use crate::surface::Role;
+use crate::surface::{PatchPlace, Role, Surface};
 
 /// The colour of the material in style `Shaded`.
 const CLAY: [u8; 3] = [142, 157, 178];
@@ -39,27 +38,27 @@ const FADE_BELOW: f64 = 9.0;
 #[derive(Debug)]
 pub(super) struct Painter<'a> {
     camera: &'a Camera,
-    coat: Coat,
+    coat: Coat<'a>,
     /// The distance between samples in pixels.
     spacing: f64,
 }
 
 /// What the surface is painted with.
 #[derive(Debug)]
-pub(super) enum Coat {
+pub(super) enum Coat<'a> {
     /// One material.
     Clay,
     /// Highlight lines.
     Stripes(HighlightLines),
     /// The curvature that the style names, the value `range` being the end of the colour map.
     Curvature(Style, f64),
-    /// The patch layout.
-    Layout(Pieces),
+    /// The patches of this surface.
+    Patches(&'a Surface),
 }
 
 impl<'a> Painter<'a> {
     /// Paints `coat` as seen by `camera` with `samples` x `samples` samples per pixel.
-    pub fn new(camera: &'a Camera, coat: Coat, samples: usize) -> Self {
+    pub fn new(camera: &'a Camera, coat: Coat<'a>, samples: usize) -> Self {
         Self { camera, coat, spacing: 1.0 / samples as f64 }
     }
 
@@ -73,7 +72,7 @@ impl<'a> Painter<'a> {
                 let value = curvature(*style, seen).unwrap_or(f64::NAN);
                 dimmed(diverging(value / range), 0.30, n)
             }
-            Coat::Layout(pieces) => self.patch(pieces, seen, n),
+            Coat::Patches(surface) => self.patch(surface, seen, n),
         }
     }
 
@@ -99,20 +98,20 @@ impl<'a> Painter<'a> {
         length([d[0] * gu[0] + d[1] * gv[0], d[0] * gu[1] + d[1] * gv[1]])
     }
 
-    fn patch(&self, pieces: &Pieces, seen: &Seen, n: Vector) -> Light {
-        let Some(piece) = pieces.at(seen.quad.0, seen.uv) else {
+    fn patch(&self, surface: &Surface, seen: &Seen, n: Vector) -> Light {
+        let Some(place) = surface.place_at(seen.quad, seen.uv[0], seen.uv[1]) else {
             return studio(from_srgb(EVEN_RING), n);
         };
-        let lit = studio(from_srgb(role_color(piece.role)), n);
-        mix(lit, from_srgb(BORDER), self.border(&piece, seen))
+        let lit = studio(from_srgb(role_color(place.role)), n);
+        mix(lit, from_srgb(BORDER), self.border(&place, seen))
     }
 
-    /// How much of the sample is covered by the border of `piece`, 0 to 1.
-    fn border(&self, piece: &Piece, seen: &Seen) -> f64 {
+    /// How much of the sample is covered by the border of a patch, 0 to 1.
+    fn border(&self, place: &PatchPlace, seen: &Seen) -> f64 {
         let lines = (0..2).map(|k| {
             let unit_step = std::array::from_fn(|m| f64::from(u8::from(m == k)));
             let pixels = 1.0 / self.change_per_pixel(unit_step, seen);
-            let [low, high] = piece.domain[k];
+            let [low, high] = place.domain[k];
             let distance = pixels * (seen.uv[k] - low).abs().min((high - seen.uv[k]).abs());
             let cover = ((0.5 * BORDER_WIDTH - distance) / self.spacing + 0.5).clamp(0.0, 1.0);
             cover * (pixels * (high - low) / FADE_BELOW).min(1.0)

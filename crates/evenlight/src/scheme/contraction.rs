@@ -103,6 +103,7 @@ impl From<Contraction> for Variant {
 
 /// Why a scheme does not have a contraction.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ContractionError {
     /// lambda is not between [`Contraction::LIMITS`].
     #[error(

@@ -14,11 +14,11 @@
 //!                      line s
 //! ```
 //!
-//! One refinement gives the nodes up to (3,3), hence three bi-3 patches per sector, and again such a
-//! net. Everything but the rule of c is cubic knot insertion. As for smooth vertices, c is no node
-//! of the rules: it follows from the limit point being the origin. With the left eigenvector w of
-//! eigenvalue 1 that is w c + sum w_k p_k = 0; w is known for creases (1/6, 2/3, 1/6) and corners
-//! (c alone), and iterated for darts.
+//! One refinement gives the nodes up to (3,3), hence three bi-3 patches per sector, and again such
+//! a net. Everything but the rule of c is cubic knot insertion. As for smooth vertices, c is no
+//! node of the rules: it follows from the limit point being the origin. With the left eigenvector w
+//! of eigenvalue 1 that is w c + sum w_k p_k = 0; w is known for creases (1/6, 2/3, 1/6) and
+//! corners (c alone), and iterated for darts.
 
 mod fair;
 
@@ -46,8 +46,9 @@ pub(crate) struct FanLimit {
     /// The first net of the rules by that of the fan, c being the last node; `None` if it is that
     /// without c.
     first_net: Option<Vec<Row>>,
-    /// Of rules with 2 x 2 patches per square the BB coefficients, by the net, of the patches of the hole
-    /// that do not touch the centre: [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2], in halves of it.
+    /// Of rules with 2 x 2 patches per square the BB coefficients, by the net, of the patches of
+    /// the hole that do not touch the centre: [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2], in
+    /// halves of it.
     cells: Vec<[Vec<Row>; 3]>,
 }
 
@@ -98,6 +99,16 @@ impl FanLimit {
         self.shape
     }
 
+    /// The number of nodes of the net, the node c being the last.
+    pub(crate) fn num_nodes(&self) -> usize {
+        2 * self.shape.lines() + 4 * self.shape.faces + 1
+    }
+
+    /// The limit point by the nodes, c being the last.
+    pub(crate) fn point(&self) -> &Row {
+        &self.point
+    }
+
     /// The rows of the two directions that span the tangent plane, c being the last node, the first
     /// along the crease if there is one; `None` if there are none such.
     pub(crate) fn tangent_rows(&self) -> Option<&[Row; 2]> {
@@ -140,7 +151,8 @@ impl FanLimit {
         }
     }
 
-    /// The patches of the hole that do not touch the centre, sector by sector, if the rules have such.
+    /// The patches of the hole that do not touch the centre, sector by sector, if the rules have
+    /// such.
     pub(crate) fn cells<const N: usize>(&self, net: &[[f64; N]]) -> Vec<[Vec<[f64; N]>; 3]> {
         let patch = |rows: &Vec<Row>| rows.iter().map(|row| apply(row, net)).collect();
         self.cells.iter().map(|cells| cells.each_ref().map(patch)).collect()
@@ -462,8 +474,8 @@ fn crease_tangents(net: &Net) -> [Row; 2] {
     [vec![(ends[0], 1.0), (ends[1], -1.0)], across]
 }
 
-/// The left eigenvectors of the largest eigenvalues, symmetric and antisymmetric in the dart's line,
-/// by iteration.
+/// The left eigenvectors of the largest eigenvalues, symmetric and antisymmetric in the dart's
+/// line, by iteration.
 fn dart_tangents(net: &Net, refine: &[Row]) -> [Row; 2] {
     let mirror = mirror_images(net);
     let mut rows = [1.0, -1.0].map(|sign| {

@@ -1,7 +1,7 @@
 //! The schemes: which linear rules make the rings around an extraordinary point.
 //!
-//! A scheme is a pair of linear maps per valence (module `rules`): net to refined net, and both to a
-//! ring of Bernstein-Bezier patches. Nothing here knows a mesh.
+//! A scheme is a pair of linear maps per valence (module `rules`): net to refined net, and both to
+//! a ring of Bernstein-Bezier patches. Nothing here knows a mesh.
 
 mod catmull_clark;
 mod contraction;
@@ -18,13 +18,15 @@ pub use contraction::{Contraction, ContractionError, Variant};
 pub use fan::MAX_FAIR_FACES;
 pub(crate) use fan::{FairFan, FanLimit, fair_rules, is_fair, rules as fan_rules};
 pub(crate) use guided::{guide_monomials, sampled_guide};
-pub(crate) use rules::{PatchParameters, Row, Rules};
+pub(crate) use rules::{Cuts, PatchParameters, Row, Rules};
 pub(crate) use subdominant::Subdominant;
 
+use crate::names::names;
 use crate::net::{CNet, DNet, MAX_VALENCE, Spline};
 
 /// Which subdivision scheme makes the surface around extraordinary points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum SchemeKind {
     /// Catmull-Clark subdivision \[CC78\]: bi-3 rings, C1 at the centre, unbounded curvature there.
     CatmullClark,
@@ -51,8 +53,8 @@ pub enum SchemeKind {
     Guided5,
     /// Guided C2 subdivision [KP18-Guided]: bi-6 rings, curvature continuous at the centre.
     Guided6,
-    /// Fairness-optimal subdivision, ours: the net of [`Self::Qas4`] with the rules of least energy,
-    /// bi-4 rings, curvature bounded at the centre.
+    /// Fairness-optimal subdivision, ours: the net of [`Self::Qas4`] with the rules of least
+    /// energy, bi-4 rings, curvature bounded at the centre.
     Fair4,
     /// Fairness-optimal subdivision without a quadratic that can be set: the net of
     /// [`Self::EvolvingGuide`], bi-4 rings; curvature is bounded at the centre, but not given.
@@ -64,6 +66,7 @@ pub enum SchemeKind {
 
 /// Which tables of weights are used, by schemes that have tables.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum RuleSet {
     /// Full precision, valences 3 and 5 to 16; of guided subdivision, with the feature `derive`, to
     /// 32.
@@ -74,43 +77,25 @@ pub enum RuleSet {
     Published,
 }
 
+names! { SchemeKind, "scheme":
+    CatmullClark => "cc",
+    EvolvingGuide => "eg",
+    Pas3 => "pas3",
+    Pas4 => "pas4",
+    Qas3 => "qas3",
+    Qas4 => "qas4",
+    Guided3 => "guided3",
+    Guided4 => "guided4",
+    Guided5 => "guided5",
+    Guided6 => "guided6",
+    Fair4 => "fair4",
+    Fair4d => "fair4d",
+    Fair3 => "fair3",
+}
+
+names! { RuleSet, "set of rules": Published => "published", Generated => "generated" }
+
 impl SchemeKind {
-    /// All schemes, in the order in which they are listed to users.
-    pub const ALL: [Self; 13] = [
-        Self::CatmullClark,
-        Self::EvolvingGuide,
-        Self::Pas3,
-        Self::Pas4,
-        Self::Qas3,
-        Self::Qas4,
-        Self::Guided3,
-        Self::Guided4,
-        Self::Guided5,
-        Self::Guided6,
-        Self::Fair4,
-        Self::Fair4d,
-        Self::Fair3,
-    ];
-
-    /// The short name used in commands and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::CatmullClark => "cc",
-            Self::EvolvingGuide => "eg",
-            Self::Pas3 => "pas3",
-            Self::Pas4 => "pas4",
-            Self::Qas3 => "qas3",
-            Self::Qas4 => "qas4",
-            Self::Guided3 => "guided3",
-            Self::Guided4 => "guided4",
-            Self::Guided5 => "guided5",
-            Self::Guided6 => "guided6",
-            Self::Fair4 => "fair4",
-            Self::Fair4d => "fair4d",
-            Self::Fair3 => "fair3",
-        }
-    }
-
     /// Whether there are rules for valence `n`.
     pub fn has_rules(self, variant: impl Into<Variant>, n: usize) -> bool {
         let is_tabulated = |last: usize| n == 3 || (5..=last).contains(&n);
@@ -229,7 +214,8 @@ impl SchemeKind {
         }
     }
 
-    /// The control net on which the rules of schemes without a guide work, from a c-net relative to its limit point.
+    /// The control net on which the rules of schemes without a guide work, from a c-net relative to
+    /// its limit point.
     pub(crate) fn net<const N: usize>(self, cnet: &CNet<N>) -> Vec<[f64; N]> {
         match self.spline() {
             None => cnet.sectors.iter().flatten().copied().collect(),

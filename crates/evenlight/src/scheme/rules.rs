@@ -257,9 +257,21 @@ impl Rules {
         self.patch_sides(which).map(|side| [side.start, side.end])
     }
 
-    fn patch_sides(&self, which: usize) -> [Side; 2] {
+    /// The numbers of the lines at which patch `which` begins in a and in b: from 0 at the spoke to
+    /// 2 split at the outer border, split at the hole.
+    pub(crate) fn patch_lines(&self, which: usize) -> [usize; 2] {
+        let (square, part) = self.square_and_part(which);
+        [0, 1].map(|k| self.first_line(square, k) + part[k])
+    }
+
+    /// The square of a patch, and its place in it.
+    fn square_and_part(&self, which: usize) -> (usize, [usize; 2]) {
         let (square, part) = (which / (self.split * self.split), which % (self.split * self.split));
-        let part = [part / self.split, part % self.split];
+        (square, [part / self.split, part % self.split])
+    }
+
+    fn patch_sides(&self, which: usize) -> [Side; 2] {
+        let (square, part) = self.square_and_part(which);
         [0, 1].map(|k| match self.cuts() {
             None => {
                 let size = 0.5 / self.split as f64;

@@ -191,6 +191,11 @@ impl Layout {
         &self.topology
     }
 
+    /// The connectivity to keep.
+    pub(crate) fn shared_topology(&self) -> &Arc<Topology> {
+        &self.topology
+    }
+
     /// Boundary rule, creases, corners, holes.
     pub fn tags(&self) -> &Tags {
         &self.tags
@@ -253,6 +258,11 @@ impl Layout {
     /// The extraordinary points that have a surface around them.
     pub fn extraordinary_points(&self) -> &[ExtraordinaryPoint] {
         &self.points
+    }
+
+    /// What covers the faces.
+    pub(crate) fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     /// The rules of an extraordinary point, by its index.

@@ -34,10 +34,13 @@ mod values;
 
 pub use arrays::{ArrayError, Number, PatchBlock, row_width};
 pub use cache::RuleCache;
+pub(crate) use caps::CapPlan;
 pub use error::SurfaceError;
 pub use layout::{ExtraordinaryPoint, Layout, Sector};
 pub use options::{CreaseRings, SurfaceOptions};
 pub use place::{PatchPlace, PlacedPatch, Role};
+pub(crate) use place::{RingPatch, Source, quadrant, to_sector};
+pub(crate) use primvar::own_layout;
 pub use rule::{PointRule, Reason};
 
 use std::sync::{Arc, OnceLock};

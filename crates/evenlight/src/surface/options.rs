@@ -1,6 +1,7 @@
 //! How a surface is built.
 
 use crate::mesh::BoundaryRule;
+use crate::names::names;
 use crate::scheme::{Contraction, RuleSet, SchemeKind, Variant};
 
 /// How a surface is built; by default with `qas4` at full precision.
@@ -24,6 +25,7 @@ pub struct SurfaceOptions {
 /// The curve of the crease is the same with both, the cubic spline of its vertices, and so is all of the
 /// surface but for these points. Darts, corners and semi-sharp features keep Catmull-Clark's rules.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum CreaseRings {
     /// Catmull-Clark's \[CC78\], \[DKT98\], as in OpenSubdiv: without a tangent plane from four faces
     /// on, and with curvature that grows without bounds.
@@ -33,6 +35,8 @@ pub enum CreaseRings {
     /// [`MAX_FAIR_FACES`](crate::scheme::MAX_FAIR_FACES) faces; Catmull-Clark's for more.
     Fair,
 }
+
+names! { CreaseRings, "kind of rings beside creases": CatmullClark => "cc", Fair => "fair" }
 
 impl SurfaceOptions {
     /// Which rules of the scheme are taken.

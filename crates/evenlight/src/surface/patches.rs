@@ -2,15 +2,15 @@
 
 use super::caps::CapPlan;
 use super::place::{
-    PatchPlace, PlacedPatch, RingPatch, Role, Source, Square, from_sector, ring_domain, to_sector,
-    turned_patch,
+    PatchPlace, PlacedPatch, RingPatch, Role, Source, Square, from_sector, quadrant, ring_domain,
+    to_sector, turned_patch,
 };
 use super::{Layout, QuadId, Surface};
-use crate::mesh::isolation::Piece;
+use crate::mesh::isolation::{CORNERS, Piece};
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::kernel::{square, sum, sum_of_rows, tensor_jet};
 use crate::patch::{Answer, Jet, Parts, Patch, SurfacePoint};
-use crate::rings::MAX_RINGS;
+use crate::rings::{MAX_RINGS, in_ring, scaled_up};
 
 impl Layout {
     /// Where the patches of surfaces lie that are not closed: all regular patches and the first
@@ -37,6 +37,97 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// The patch that evaluation asks at (u,v) of a quad, which are clamped to 0..1, of rings without end
+    /// or in front of caps. `None` if there is no surface, no such quad, at a point without a cap, and if
+    /// a parameter is NaN.
+    pub(crate) fn place_at(
+        &self,
+        quad: QuadId,
+        uv: [f64; 2],
+        caps: Option<&CapPlan>,
+    ) -> Option<PatchPlace> {
+        let mut piece = *self.plan.pieces[..self.num_quads()].get(quad.0 as usize)?;
+        let mut square = Square { quad, origin: [0.0; 2], size: 1.0 };
+        if uv.iter().any(|x| x.is_nan()) {
+            return None;
+        }
+        let mut at = uv.map(|x| x.clamp(0.0, 1.0));
+        loop {
+            match piece {
+                Piece::Omitted => return None,
+                Piece::Regular(net) => return Some(place_of_net(net, square)),
+                Piece::Sector { point, sector, corner } => {
+                    let (point, sector) = (point as usize, sector as usize);
+                    let of_patch = |(role, ring, which)| {
+                        let patch = RingPatch { point, sector, ring, which, square, corner };
+                        self.place_around(role, patch, caps)
+                    };
+                    return self.patch_around(point, to_sector(corner, at), caps).map(of_patch);
+                }
+                Piece::Split(first) => {
+                    let k = quadrant(at);
+                    piece = self.plan.pieces[first as usize + k];
+                    at = [0, 1].map(|d| 2.0 * at[d] - CORNERS[k][d]);
+                    square = square.child(k);
+                }
+            }
+        }
+    }
+
+    /// Role, ring (from 0) and number of the patch at (a,b) of a sector of a point.
+    fn patch_around(
+        &self,
+        point: usize,
+        at: [f64; 2],
+        caps: Option<&CapPlan>,
+    ) -> Option<(Role, usize, usize)> {
+        let rules = self.rules(point).rules().rules();
+        let sigma = rules.sigma();
+        if let Some(caps) = caps {
+            let rings = caps.options.rings;
+            let in_hole = at.map(|x| scaled_up(x, rings, sigma));
+            if in_hole[0].max(in_hole[1]) <= 1.0 {
+                return Some((Role::Cap, rings, caps.rules(point).patch_at(in_hole)));
+            }
+        }
+        if at[0].max(at[1]) == 0.0 {
+            return None;
+        }
+        let (ring, at) = in_ring(at, sigma);
+        Some((Role::Ring(ring), ring, rules.patch_at(at)))
+    }
+
+    /// The place of a patch around a point.
+    fn place_around(&self, role: Role, patch: RingPatch, caps: Option<&CapPlan>) -> PatchPlace {
+        let RingPatch { point, sector, ring, which, square, corner } = patch;
+        let rules = self.rules(point).rules().rules();
+        let (domain, source) = match caps.filter(|_| role == Role::Cap) {
+            Some(caps) => (caps.rules(point).patch_domain(which), Source::Cap(patch)),
+            None => (rules.patch_domain(which), Source::Ring(patch)),
+        };
+        PatchPlace {
+            role,
+            quad: square.quad,
+            domain: square.part(ring_domain(corner, rules.sigma(), ring, domain)),
+            point: Some(point),
+            sector: Some(sector),
+            source,
+        }
+    }
+}
+
+fn place_of_net(net: u32, square: Square) -> PatchPlace {
+    PatchPlace {
+        role: Role::Regular,
+        quad: square.quad,
+        domain: square.part([[0.0, 1.0], [0.0, 1.0]]),
+        point: None,
+        sector: None,
+        source: Source::Net(net),
+    }
+}
+
 /// Collects the places of patches.
 struct Collector<'a> {
     layout: &'a Layout,
@@ -48,14 +139,7 @@ impl Collector<'_> {
     fn collect(&self, piece: Piece, square: Square, out: &mut Vec<PatchPlace>) {
         match piece {
             Piece::Omitted => {}
-            Piece::Regular(net) => out.push(PatchPlace {
-                role: Role::Regular,
-                quad: square.quad,
-                domain: square.part([[0.0, 1.0], [0.0, 1.0]]),
-                point: None,
-                sector: None,
-                source: Source::Net(net),
-            }),
+            Piece::Regular(net) => out.push(place_of_net(net, square)),
             Piece::Sector { point, sector, corner } => {
                 self.collect_sector(point as usize, sector as usize, corner, square, out);
             }
@@ -77,27 +161,20 @@ impl Collector<'_> {
         out: &mut Vec<PatchPlace>,
     ) {
         let rules = self.layout.rules(point).rules().rules();
-        let place = |role, ring, which, domain| {
+        let place = |role, ring, which| {
             let patch = RingPatch { point, sector, ring, which, square, corner };
-            PatchPlace {
-                role,
-                quad: square.quad,
-                domain: square.part(ring_domain(corner, rules.sigma(), ring, domain)),
-                point: Some(point),
-                sector: Some(sector),
-                source: if role == Role::Cap { Source::Cap(patch) } else { Source::Ring(patch) },
-            }
+            self.layout.place_around(role, patch, self.caps)
         };
         let count = self.caps.map_or(self.rings, |caps| self.rings.min(caps.options.rings));
         for ring in 0..count {
             for which in 0..rules.patches_per_sector() {
-                out.push(place(Role::Ring(ring), ring, which, rules.patch_domain(which)));
+                out.push(place(Role::Ring(ring), ring, which));
             }
         }
         if let Some(caps) = self.caps.filter(|caps| caps.options.rings <= self.rings) {
             let (cap, ring) = (caps.rules(point), caps.options.rings);
             for which in 0..cap.patches_per_sector() {
-                out.push(place(Role::Cap, ring, which, cap.patch_domain(which)));
+                out.push(place(Role::Cap, ring, which));
             }
         }
     }
@@ -108,14 +185,21 @@ impl<const N: usize> Surface<N> {
     /// [`MAX_RINGS`], quad by quad; of a closed surface no more rings than it has, and if it is all of them the caps.
     pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch<N>> + '_ {
         self.patch_places(rings).map(|place| {
-            let PatchPlace { role, quad, domain, point, sector, .. } = place;
-            PlacedPatch { role, quad, domain, point, sector, patch: self.patch_at(&place) }
+            let patch = self.patch_at(&place);
+            PlacedPatch { place, patch }
         })
     }
 
     /// Where the patches of [`Surface::patches`] lie.
     pub fn patch_places(&self, rings: usize) -> impl Iterator<Item = PatchPlace> + '_ {
         self.layout.places(rings, self.cap_plan().map(|plan| &**plan))
+    }
+
+    /// Where the patch lies that evaluation asks at (u,v) of `quad`, which are clamped to 0..1: in which
+    /// ring however deep, or in the cap. `None` if there is no surface, no such quad, at an extraordinary
+    /// point without a cap, and if a parameter is NaN.
+    pub fn place_at(&self, quad: QuadId, u: f64, v: f64) -> Option<PatchPlace> {
+        self.layout.place_at(quad, [u, v], self.cap_plan().map(|plan| &**plan))
     }
 
     /// The polynomial of a patch; `None` if the place is not one of this surface.

@@ -11,6 +11,8 @@
 //!   e -- a       b -- e       + -- b       a -- +       (u to the right, v upwards)
 //! ```
 
+use std::fmt;
+
 use super::QuadId;
 use crate::mesh::isolation::CORNERS;
 use crate::patch::{Jet, Patch};
@@ -18,6 +20,7 @@ use crate::point::scale;
 
 /// What a patch is part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Role {
     /// A bi-3 patch whose four corners are regular.
     Regular,
@@ -26,6 +29,17 @@ pub enum Role {
     Ring(usize),
     /// A patch of the cap behind the rings around an extraordinary point.
     Cap,
+}
+
+/// The word used in files, which count rings from 1: `regular`, `ring-1`, `ring-2` and so on, `cap`.
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Regular => f.write_str("regular"),
+            Self::Ring(k) => write!(f, "ring-{}", k + 1),
+            Self::Cap => f.write_str("cap"),
+        }
+    }
 }
 
 /// Where a polynomial patch lies.
@@ -43,12 +57,12 @@ pub struct PatchPlace {
     pub point: Option<usize>,
     /// The sector of that point, from 0.
     pub sector: Option<usize>,
-    pub(super) source: Source,
+    pub(crate) source: Source,
 }
 
 /// What a patch is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Source {
+pub(crate) enum Source {
     /// The number of its control net.
     Net(u32),
     /// A patch of a ring around an extraordinary point.
@@ -60,40 +74,30 @@ pub(super) enum Source {
 /// Patch `which` of a sector of a ring (from 0), the sector's square in its quad and the corner of
 /// the square at which the extraordinary point is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RingPatch {
-    pub(super) point: usize,
-    pub(super) sector: usize,
-    pub(super) ring: usize,
-    pub(super) which: usize,
-    pub(super) square: Square,
-    pub(super) corner: u8,
+pub(crate) struct RingPatch {
+    pub(crate) point: usize,
+    pub(crate) sector: usize,
+    pub(crate) ring: usize,
+    pub(crate) which: usize,
+    pub(crate) square: Square,
+    pub(crate) corner: u8,
 }
 
 /// One polynomial patch of the surface and where it lies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedPatch<const N: usize = 3> {
-    /// What it is part of.
-    pub role: Role,
-    /// The parametric quad that it lies in.
-    pub quad: QuadId,
-    /// The part of that quad: [[u0, u1], [v0, v1]]; the patch's own (u,v) runs over it in the
-    /// same directions.
-    pub domain: [[f64; 2]; 2],
-    /// The extraordinary point it belongs to, as an index into
-    /// [`Surface::extraordinary_points`](super::Surface::extraordinary_points); `None` for regular patches.
-    pub point: Option<usize>,
-    /// The sector of that point, from 0.
-    pub sector: Option<usize>,
+    /// What it is part of, and where it lies.
+    pub place: PatchPlace,
     /// The polynomial.
     pub patch: Patch<N>,
 }
 
 /// A square of a parametric quad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Square {
-    pub(super) quad: QuadId,
-    pub(super) origin: [f64; 2],
-    pub(super) size: f64,
+pub(crate) struct Square {
+    pub(crate) quad: QuadId,
+    pub(crate) origin: [f64; 2],
+    pub(crate) size: f64,
 }
 
 impl Square {
@@ -115,7 +119,7 @@ impl Square {
 }
 
 /// The corner of the quarter of a square in which a point lies.
-pub(super) fn quadrant([u, v]: [f64; 2]) -> usize {
+pub(crate) fn quadrant([u, v]: [f64; 2]) -> usize {
     match (u > 0.5, v > 0.5) {
         (false, false) => 0,
         (true, false) => 1,
@@ -126,7 +130,7 @@ pub(super) fn quadrant([u, v]: [f64; 2]) -> usize {
 
 /// The sector parameters (a,b) of a point (u,v) of a square, the extraordinary point being at
 /// the square's corner `corner`: a runs to the next corner, b to the one before.
-pub(super) fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn to_sector(corner: u8, [u, v]: [f64; 2]) -> [f64; 2] {
     match corner {
         0 => [u, v],
         1 => [v, 1.0 - u],

@@ -77,6 +77,11 @@ impl Channel {
     }
 }
 
+/// The layout of a smooth face-varying primvar, and the number of the value at each of its vertices.
+pub(crate) fn own_layout(layout: &Layout, primvar: &Primvar) -> Option<(Arc<Layout>, Vec<u32>)> {
+    Channel::own_layout(layout, primvar)
+}
+
 /// The surface of a primvar over a layout at whose vertices it has the values of these numbers.
 fn surface<const N: usize>(
     layout: &Arc<Layout>,
@@ -138,12 +143,12 @@ impl Surface {
     /// Derivatives do not exist (NaN) where those of a surface do not: at extraordinary points.
     ///
     /// ```
-    /// use evenlight::io::obj;
+    /// use evenlight::io::load::Format;
     /// use evenlight::{FaceId, Surface, SurfaceOptions};
     ///
     /// let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 2\nvt 0 2\n\
     ///             f 1/1 2/2 3/3 4/4\n";
-    /// let (cage, _) = obj::read_cage(text.as_bytes())?;
+    /// let (cage, _) = Format::Obj.read_cage(text.as_bytes())?;
     /// let surface = Surface::build(cage, SurfaceOptions::default())?;
     /// let quad = surface.quad(FaceId(0), 0).expect("the only face is a quad");
     /// let st = surface.eval_primvar::<2>(0, quad, 0.5, 0.5).expect("there is a texture");

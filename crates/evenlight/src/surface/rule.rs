@@ -9,6 +9,7 @@ use crate::scheme::{SchemeKind, is_fair};
 
 /// The rule of an extraordinary point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum PointRule {
     /// The chosen scheme.
     Scheme,
@@ -20,6 +21,7 @@ pub enum PointRule {
 
 /// Why a point does not get the chosen scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Reason {
     /// The scheme has no rules for the valence.
     Valence,

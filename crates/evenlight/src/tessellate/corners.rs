@@ -176,8 +176,8 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// Adds the triangles of `quad`, at a corner of a face, on whose grid the primvar has the values
-    /// `grid`.
+    /// Adds the triangles of `quad`, at a corner of a face, on whose grid the primvar has the
+    /// values `grid`.
     fn add(
         &mut self,
         mesh: &TriangleMesh,

@@ -28,19 +28,21 @@
 //! | watertight, for measuring, printing and simulation | `positions` | `triangles` |
 //! | shaded, hard at creases | of every side, `positions[vertex_of_side(side)]` and `normals` | [`sides()`](TriangleMesh::sides) |
 //!
-//! [`TriangleMesh::split`] makes vertices for graphics, also at the seams of channels such as texture
-//! coordinates ([`TriangleMesh::corner_values`], [`TriangleMesh::corner_channels`]).
+//! [`TriangleMesh::split`] makes vertices for graphics, also at the seams of channels such as
+//! texture coordinates ([`TriangleMesh::corner_values`], [`TriangleMesh::corner_channels`]).
 //!
 //! What is not: the triangles may intersect where the surface does. Faces without a surface
 //! are left out, and where two faces with a surface share nothing but a vertex, so do their
 //! triangles.
 
+mod arrays;
 mod corners;
 mod nodes;
 mod samples;
 mod sides;
 mod split;
 
+pub use arrays::TriangleArrays;
 pub use corners::{CornerChannels, CornerValues};
 pub use split::SplitVertices;
 
@@ -51,15 +53,15 @@ use crate::point::{Point, Vector, add, cross, dot, norm, sub, unit};
 use crate::surface::{QuadId, Surface};
 use crate::task::{Cancelled, Steps};
 use nodes::{Grid, Nodes};
-use samples::samples;
+use samples::{NodePlace, samples};
 use sides::Sides;
 
 /// Triangles on the limit surface, with what the surface says at their vertices.
 ///
-/// There is a position for each vertex, and a normal, K, H and an origin for each *side* of a vertex.
-/// Side `v` is the first side of vertex `v`; the sides from `positions.len()` on are those that
-/// vertices have in addition where the surface is folded along an infinitely sharp edge. Without
-/// such edges sides are vertices.
+/// There is a position for each vertex, and a normal, K, H and an origin for each *side* of a
+/// vertex. Side `v` is the first side of vertex `v`; the sides from `positions.len()` on are those
+/// that vertices have in addition where the surface is folded along an infinitely sharp edge.
+/// Without such edges sides are vertices.
 ///
 /// A vertex takes 88 bytes, a triangle 12; where there are folds a further side takes 68 and a
 /// triangle 24.
@@ -121,6 +123,7 @@ pub struct ParametricTriangle {
 
 /// Why no triangle mesh could be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TessellateError {
     /// The rate is zero.
     #[error("the rate must be 1 or more")]
@@ -159,16 +162,34 @@ impl From<Cancelled> for TessellateError {
 /// If `rate` is 0, or if there would be 2^32 - 1 vertices or more. Running out of memory is
 /// not an error that is reported.
 pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, TessellateError> {
+    let mut mesh = TriangleMesh::default();
+    tessellate_into(surface, rate, &mut mesh)?;
+    Ok(mesh)
+}
+
+/// [`tessellate`] into a mesh of the caller's, whose memory is used again: for every pose of an
+/// animation the same.
+///
+/// # Errors
+///
+/// As of [`tessellate`]; the mesh is as it was, but incomplete if the work was cancelled.
+pub fn tessellate_into(
+    surface: &Surface,
+    rate: usize,
+    mesh: &mut TriangleMesh,
+) -> Result<(), TessellateError> {
     let nodes =
         Nodes::number(surface.topology(), rate_used(surface, rate)?, |f| !surface.is_omitted(f))?;
     let sides = Sides::number(surface, &nodes)?;
-    let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
-    mesh.side_vertices = sides.nodes().to_vec();
-    mesh.origins = origins(surface, &nodes, &sides);
-    mesh.evaluate(surface)?;
+    mesh.clear();
+    mesh.rate = nodes.rate();
+    mesh.side_vertices.extend_from_slice(sides.nodes());
+    let places = places(surface, &nodes, &sides);
+    mesh.origins.extend(places.iter().map(|place| place.origin()));
+    mesh.evaluate(surface, &places)?;
     mesh.fill_what_is_missing(surface, &nodes, &sides);
     mesh.triangulate(surface, &nodes, &sides);
-    Ok(mesh)
+    Ok(())
 }
 
 /// The rate rounded up to what the n-gons need.
@@ -188,29 +209,30 @@ fn quad_of(surface: &Surface, grid: Grid) -> QuadId {
     surface.quad(grid.face, grid.corner).expect("the grids are those of the surface's quads")
 }
 
-/// The first grid, in the order of the quads, in which each side lies.
-fn origins(surface: &Surface, nodes: &Nodes, sides: &Sides) -> Vec<VertexOrigin> {
-    const UNKNOWN: VertexOrigin = VertexOrigin { quad: QuadId(u32::MAX), uv: [0.0; 2] };
-    let mut origins = vec![UNKNOWN; nodes.len() + sides.nodes().len()];
+/// The first grid, in the order of the quads, in which each side lies, and the node there.
+fn places(surface: &Surface, nodes: &Nodes, sides: &Sides) -> Vec<NodePlace> {
+    const UNKNOWN: NodePlace = NodePlace { quad: QuadId(u32::MAX), segments: 1, node: [0; 2] };
+    let mut places = vec![UNKNOWN; nodes.len() + sides.nodes().len()];
     for grid in nodes.grids() {
         let (quad, sides) = (quad_of(surface, grid), sides.of_face(grid.face));
         for (i, j) in grid.nodes() {
-            let origin = &mut origins[sides.side(nodes.node(grid, i, j)) as usize];
-            if origin.quad == UNKNOWN.quad {
-                *origin = VertexOrigin { quad, uv: grid.parameters(i as f64, j as f64) };
+            let place = &mut places[sides.side(nodes.node(grid, i, j)) as usize];
+            if place.quad == UNKNOWN.quad {
+                let segments = grid.segments as u32;
+                *place = NodePlace { quad, segments, node: [i as u32, j as u32] };
             }
         }
     }
-    origins
+    places
 }
 
 fn eval(surface: &Surface, quad: QuadId, [u, v]: [f64; 2]) -> SurfacePoint {
     surface.eval(quad, u, v).expect("quads of omitted faces have no grid")
 }
 
-/// Whether the surface has two infinitely sharp edges or boundaries in one line at a corner of a quad:
-/// the edges of a plane face, say, one of whose vertices lies between two others. Its normal is noise
-/// there, whatever the digits of the cage.
+/// Whether the surface has two infinitely sharp edges or boundaries in one line at a corner of a
+/// quad: the edges of a plane face, say, one of whose vertices lies between two others. Its normal
+/// is noise there, whatever the digits of the cage.
 fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> bool {
     /// Sines of angles that files with seven digits leave of a straight one, and more.
     const STRAIGHT: f64 = 1e-4;
@@ -226,17 +248,31 @@ fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> 
 }
 
 impl TriangleMesh {
+    /// Empties everything, but keeps the memory.
+    fn clear(&mut self) {
+        let Self { positions, normals, gauss, mean, origins, .. } = self;
+        positions.clear();
+        normals.clear();
+        gauss.clear();
+        mean.clear();
+        origins.clear();
+        self.side_vertices.clear();
+        self.triangles.clear();
+        self.corner_sides.clear();
+        self.quads.clear();
+    }
+
     /// Computes all sides, and vertices on their first, a slice at a time.
-    fn evaluate(&mut self, surface: &Surface) -> Result<(), Cancelled> {
+    fn evaluate(&mut self, surface: &Surface, places: &[NodePlace]) -> Result<(), Cancelled> {
         const SLICE: usize = 1 << 16;
-        let num_vertices = self.origins.len() - self.side_vertices.len();
+        let num_vertices = places.len() - self.side_vertices.len();
         self.positions.reserve_exact(num_vertices);
-        self.normals.reserve_exact(self.origins.len());
-        self.gauss.reserve_exact(self.origins.len());
-        self.mean.reserve_exact(self.origins.len());
-        let mut steps = Steps::new("Evaluating vertices", self.origins.len().div_ceil(SLICE))?;
-        for slice in self.origins.chunks(SLICE) {
-            for points in samples(surface, self.rate, slice) {
+        self.normals.reserve_exact(places.len());
+        self.gauss.reserve_exact(places.len());
+        self.mean.reserve_exact(places.len());
+        let mut steps = Steps::new("Evaluating vertices", places.len().div_ceil(SLICE))?;
+        for slice in places.chunks(SLICE) {
+            for points in samples(surface, slice) {
                 let missing = num_vertices - self.positions.len();
                 self.positions.extend(points.iter().map(|p| p.position).take(missing));
                 self.normals.extend(points.iter().map(|p| p.normal));
@@ -249,7 +285,8 @@ impl TriangleMesh {
     }
 
     /// Gives extraordinary points and other corners of quads the curvature and the normal that they
-    /// lack: the mean over the middles of the cells around, which do not depend on how cells are cut.
+    /// lack: the mean over the middles of the cells around, which do not depend on how cells are
+    /// cut.
     fn fill_what_is_missing(&mut self, surface: &Surface, nodes: &Nodes, sides: &Sides) {
         let mut around: BTreeMap<u32, Vec<SurfacePoint>> = BTreeMap::new();
         for grid in nodes.grids() {
@@ -310,17 +347,17 @@ impl TriangleMesh {
         !self.side_vertices.is_empty()
     }
 
-    /// The corners of the triangles, as numbers of sides: with `sides()` in the place of `triangles`
-    /// every triangle has the normals and curvatures of its own side of folds.
+    /// The corners of the triangles, as numbers of sides: with `sides()` in the place of
+    /// `triangles` every triangle has the normals and curvatures of its own side of folds.
     ///
     /// ```
-    /// use evenlight::io::obj;
+    /// use evenlight::io::load::Format;
     /// use evenlight::tessellate::tessellate;
     /// use evenlight::{Surface, SurfaceOptions};
     ///
     /// let roof = "v 0 0 0\nv 1 0 1\nv 2 0 0\nv 0 1 0\nv 1 1 1\nv 2 1 0\n\
     ///             f 1 2 5 4\nf 2 3 6 5\nt crease 2/1/0 1 4 10\n";
-    /// let (cage, _) = obj::read_cage(roof.as_bytes())?;
+    /// let (cage, _) = Format::Obj.read_cage(roof.as_bytes())?;
     /// let mesh = tessellate(&Surface::build(cage, SurfaceOptions::default())?, 4)?;
     /// // Five vertices on the ridge have two sides.
     /// assert_eq!((mesh.positions.len(), mesh.normals.len()), (5 * 9, 5 * 10));

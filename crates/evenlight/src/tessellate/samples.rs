@@ -3,7 +3,7 @@
 use super::VertexOrigin;
 use crate::patch::{Answer, Jet, Parts, Shape};
 use crate::point::{Point, Vector};
-use crate::surface::Surface;
+use crate::surface::{QuadId, Surface};
 use crate::task::map_indexed;
 
 /// What a mesh keeps of the surface.
@@ -35,56 +35,65 @@ impl Parts for Sample {
     }
 }
 
-/// The samples at `origins`, which are nodes of grids with `rate` segments along every edge of the
-/// cage, in their order but in several pieces.
-pub(super) fn samples(
-    surface: &Surface,
-    rate: usize,
-    origins: &[VertexOrigin],
-) -> Vec<Vec<Sample>> {
-    /// So many origins for a thread at a time: a few dozen quads.
+/// A node of the grid of a quad.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NodePlace {
+    pub(super) quad: QuadId,
+    /// The segments along each side of the quad.
+    pub(super) segments: u32,
+    /// The number of the node along u and along v.
+    pub(super) node: [u32; 2],
+}
+
+impl NodePlace {
+    pub(super) fn origin(self) -> VertexOrigin {
+        VertexOrigin { quad: self.quad, uv: self.node.map(|node| self.parameter(node)) }
+    }
+
+    fn parameter(self, node: u32) -> f64 {
+        f64::from(node) / f64::from(self.segments)
+    }
+}
+
+/// The samples at nodes, in their order but in several pieces.
+pub(super) fn samples(surface: &Surface, places: &[NodePlace]) -> Vec<Vec<Sample>> {
+    /// So many nodes for a thread at a time: a few dozen quads.
     const PIECE: usize = 4096;
-    let pieces: Vec<&[VertexOrigin]> = origins.chunks(PIECE).collect();
+    let pieces: Vec<&[NodePlace]> = places.chunks(PIECE).collect();
     map_indexed(pieces.len(), |k| {
         let mut samples = Vec::with_capacity(pieces[k].len());
         for run in pieces[k].chunk_by(|a, b| a.quad == b.quad) {
-            add_samples_of_quad(surface, rate, run, &mut samples);
+            add_samples_of_quad(surface, run, &mut samples);
         }
         samples
     })
 }
 
 /// The samples at nodes of one quad, by way of the rectangle of nodes around them if they fill it.
-fn add_samples_of_quad(
-    surface: &Surface,
-    rate: usize,
-    run: &[VertexOrigin],
-    samples: &mut Vec<Sample>,
-) {
+fn add_samples_of_quad(surface: &Surface, run: &[NodePlace], samples: &mut Vec<Sample>) {
     let quad = run[0].quad;
-    let corners = surface.topology().faces().corners(surface.layout().face_of_quad(quad).0);
-    let segments = if corners.len() == 4 { rate } else { rate / 2 } as f64;
-    // The parameters are whole numbers divided by that of the segments.
-    let node = |origin: &VertexOrigin| origin.uv.map(|x| (segments * x + 0.5) as usize);
-    let (mut first, mut last) = ([usize::MAX; 2], [0; 2]);
-    for node in run.iter().map(node) {
+    let (mut first, mut last) = ([u32::MAX; 2], [0; 2]);
+    for place in run {
         for k in 0..2 {
-            first[k] = first[k].min(node[k]);
-            last[k] = last[k].max(node[k]);
+            first[k] = first[k].min(place.node[k]);
+            last[k] = last[k].max(place.node[k]);
         }
     }
-    let [columns, rows] = [0, 1].map(|k| last[k] - first[k] + 1);
+    let [columns, rows] = [0, 1].map(|k| (last[k] - first[k]) as usize + 1);
     if columns * rows > 2 * run.len() {
-        let alone = |origin: &VertexOrigin| surface.eval_as(quad, origin.uv[0], origin.uv[1]);
-        samples.extend(run.iter().map(|origin| alone(origin).unwrap_or(Sample::NAN)));
+        let alone = |place: &NodePlace| {
+            let [u, v] = place.origin().uv;
+            surface.eval_as(quad, u, v).unwrap_or(Sample::NAN)
+        };
+        samples.extend(run.iter().map(alone));
         return;
     }
     let lines = |k: usize| -> Vec<f64> {
-        (first[k]..=last[k]).map(|node| node as f64 / segments).collect()
+        (first[k]..=last[k]).map(|node| run[0].parameter(node)).collect()
     };
     let mut grid = vec![Sample::NAN; columns * rows];
     let all = surface.eval_grid(quad, &lines(0), &lines(1), &mut grid);
     debug_assert_eq!(all, Ok(()), "there is an answer for every pair");
-    let place = |[i, j]: [usize; 2]| (i - first[0]) * rows + (j - first[1]);
-    samples.extend(run.iter().map(|origin| grid[place(node(origin))]));
+    let at = |[i, j]: [u32; 2]| (i - first[0]) as usize * rows + (j - first[1]) as usize;
+    samples.extend(run.iter().map(|place| grid[at(place.node)]));
 }

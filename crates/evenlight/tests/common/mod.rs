@@ -8,8 +8,10 @@ pub mod refine;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use evenlight::io::load::Format;
 use evenlight::io::obj;
-use evenlight::{Cage, Mesh, SchemeKind, Surface, SurfaceOptions};
+use evenlight::surface::{PointRule, Reason};
+use evenlight::{Cage, Contraction, Mesh, RuleSet, SchemeKind, Surface, SurfaceOptions, Variant};
 
 fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes")
@@ -50,7 +52,7 @@ fn cages_in(folders: &[PathBuf]) -> Vec<(String, Arc<Cage>)> {
         .into_iter()
         .map(|path| {
             let bytes = std::fs::read(&path).unwrap();
-            let (cage, _) = obj::read_cage(&bytes).unwrap();
+            let (cage, _) = Format::Obj.read_cage(&bytes).unwrap();
             (path.file_name().unwrap().to_string_lossy().into_owned(), Arc::new(cage))
         })
         .collect()
@@ -62,6 +64,46 @@ pub fn options(scheme: SchemeKind) -> SurfaceOptions {
 
 pub fn surface(cage: &Arc<Cage>, scheme: SchemeKind) -> Surface {
     Surface::build(cage.clone(), options(scheme)).unwrap()
+}
+
+/// Whether a scheme is to have rules at valence `n`, said independently of the library:
+/// Catmull-Clark from 2 to 1024; the others at 3 and from 5 on, as far as papers print them, tables
+/// reach, or guided rules can be derived.
+pub fn has_rules(scheme: SchemeKind, Variant { rules, contraction }: Variant, n: usize) -> bool {
+    use SchemeKind::{
+        CatmullClark, EvolvingGuide, Fair3, Fair4, Fair4d, Guided3, Guided4, Guided5, Guided6,
+        Pas3, Pas4, Qas3, Qas4,
+    };
+    let is_own_contraction = contraction == Contraction::CatmullClark;
+    let last = match (scheme, rules) {
+        (CatmullClark, _) => return is_own_contraction && (2..=1024).contains(&n),
+        (EvolvingGuide | Pas3 | Pas4 | Qas3 | Qas4, RuleSet::Published) => 10,
+        (Guided3 | Guided4 | Guided5 | Guided6 | Fair3 | Fair4 | Fair4d, RuleSet::Published) => 0,
+        (Guided3 | Guided4 | Guided5 | Guided6, _) if cfg!(feature = "derive") => 32,
+        (EvolvingGuide | Pas3 | Pas4 | Qas3 | Qas4 | Fair3 | Fair4 | Fair4d, _) => 16,
+        (Guided3 | Guided4 | Guided5 | Guided6, _) => 16,
+        _ => panic!("{scheme:?} is new: say where it has rules"),
+    };
+    let is_guided = matches!(scheme, Guided3 | Guided4 | Guided5 | Guided6);
+    let is_derivable = is_guided && cfg!(feature = "derive");
+    (is_own_contraction || is_derivable) && n <= last && (n == 3 || n >= 5)
+}
+
+/// Checks that every smooth extraordinary point has the rules of the scheme if [`has_rules`] says
+/// so, and else, for its valence, those of Catmull-Clark; and that all have rings.
+pub fn assert_rules(name: &str, surface: &Surface) {
+    let SurfaceOptions { scheme, rules, contraction, .. } = surface.options();
+    for (k, point) in surface.extraordinary_points().iter().enumerate() {
+        let n = point.valence;
+        assert!(surface.rings(k).is_some(), "{name}, {}, valence {n}: no rings", scheme.name());
+        if point.fan.is_smooth() {
+            let expected = match has_rules(scheme, Variant { rules, contraction }, n) {
+                true => PointRule::Scheme,
+                false => PointRule::CatmullClark(Reason::Valence),
+            };
+            assert_eq!(point.rule, expected, "{name}, {}, valence {n}", scheme.name());
+        }
+    }
 }
 
 /// A torus of `m` x `n` quads, all vertices regular.

@@ -46,6 +46,7 @@ impl fmt::Display for LineFault {
 
 /// What a line describes, with its number in the file, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Element {
     /// A vertex.
     Vertex(u64),
@@ -67,6 +68,7 @@ impl fmt::Display for Element {
 
 /// What the numbers in a corner of a face are of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Channel {
     /// Vertices, `v`.
     Vertex,
@@ -89,6 +91,7 @@ impl fmt::Display for Channel {
 /// What is wrong with a line. A `text` is of the file, shortened, with U+FFFD for bytes that
 /// are not text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Reason {
     /// A coordinate is not a number.
     #[error("`{text}` is not a number: correct it, as in 1.5 or -2e-3")]
@@ -225,6 +228,29 @@ pub enum Reason {
         /// How many there may be.
         limit: usize,
     },
+}
+
+impl Reason {
+    /// The kind of the fault: a word that stays the same when messages change.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::NotANumber { .. } => "not-a-number",
+            Self::TooFewCoordinates { .. } => "too-few-coordinates",
+            Self::Weight { .. } => "weight",
+            Self::OtherKind { .. } => "other-kind",
+            Self::NotACorner { .. } => "not-a-corner",
+            Self::IndexZero { .. } => "index-zero",
+            Self::IndexTooLarge { .. } => "index-too-large",
+            Self::IndexBeforeFirst { .. } => "index-before-first",
+            Self::NotFinite { .. } => "not-finite",
+            Self::TagForm { .. } => "tag-form",
+            Self::TagArguments { .. } => "tag-arguments",
+            Self::TagValue { .. } => "tag-value",
+            Self::TagIndex { .. } => "tag-index",
+            Self::HierarchicalEdit { .. } => "hierarchical-edit",
+            Self::TooMany { .. } => "too-many",
+        }
+    }
 }
 
 /// Collects the faults of a file: keeps the first few, counts the others.

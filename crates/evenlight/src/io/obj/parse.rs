@@ -35,7 +35,7 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Obj, ReadError> {
         let fault = LineFault { line: 1, element: None, reason: Reason::OtherKind { what } };
         return Err(ReadError { faults: vec![fault], num_more: 0 });
     }
-    let mut reader = Reader::new(bytes, limits);
+    let mut reader = ObjReader::new(bytes, limits);
     let complete = reader.read_lines();
     // What asked for later lines can only be judged if all lines were seen.
     let late = if complete {
@@ -48,7 +48,7 @@ pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Obj, ReadError> {
 }
 
 /// What was read so far.
-struct Reader<'a> {
+struct ObjReader<'a> {
     bytes: &'a [u8],
     words: Words<'a>,
     limits: Limits,
@@ -76,7 +76,7 @@ struct Forward {
     at: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> ObjReader<'a> {
     fn new(bytes: &'a [u8], limits: Limits) -> Self {
         Self {
             bytes,
@@ -239,7 +239,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether a number of the corner is of something later.
-    fn reaches_forward(&self, corner: &Corner, word: &[u8]) -> Result<bool, Reason> {
+    fn reaches_forward(&self, corner: &CornerIndices, word: &[u8]) -> Result<bool, Reason> {
         let mut forward = false;
         for (channel, index, count) in self.numbers(corner) {
             let text = || excerpt(word);
@@ -258,7 +258,10 @@ impl<'a> Reader<'a> {
     }
 
     /// The numbers of a corner, with how many things there are so far of each kind.
-    fn numbers(&self, corner: &Corner) -> impl Iterator<Item = (Channel, i64, usize)> + use<> {
+    fn numbers(
+        &self,
+        corner: &CornerIndices,
+    ) -> impl Iterator<Item = (Channel, i64, usize)> + use<> {
         let [vertex, texture, normal] = *corner;
         let numbers = [
             (Channel::Vertex, vertex, self.positions.len()),
@@ -380,9 +383,9 @@ impl<'a> UnknownTags<'a> {
 
 /// The numbers of a corner as written: vertex, texture coordinate, normal. There is always the
 /// first.
-type Corner = [Option<i64>; 3];
+type CornerIndices = [Option<i64>; 3];
 
-fn corner(word: &[u8]) -> Option<Corner> {
+fn corner(word: &[u8]) -> Option<CornerIndices> {
     let mut corner = [None; 3];
     for (k, part) in word.split(|&b| b == b'/').enumerate() {
         let number = corner.get_mut(k)?;

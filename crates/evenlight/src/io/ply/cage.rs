@@ -4,14 +4,14 @@ use super::body::Body;
 use super::channels::{self, CornerValues};
 use super::header::{Element, Header, word};
 use super::{Place, Ply, ReadError};
-use crate::io::load::Lines;
+use crate::io::lines::Lines;
 use crate::mesh::{Faces, Mesh, VertexId};
 use crate::point::Point;
 
 /// [`super::read`].
 pub(super) fn read(bytes: &[u8]) -> Result<Ply, ReadError> {
     let header = Header::read(bytes)?;
-    let mut reader = Reader::new(&header)?;
+    let mut reader = PlyReader::new(&header)?;
     let mut body = Body::new(bytes, &header);
     for element in &header.elements {
         reader.element(element, &mut body)?;
@@ -25,7 +25,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Ply, ReadError> {
 }
 
 /// What was read so far.
-struct Reader<'a> {
+struct PlyReader<'a> {
     vertices: &'a Element,
     /// The places of x, y, z among the properties of vertices.
     xyz: [usize; 3],
@@ -41,7 +41,7 @@ struct Reader<'a> {
 /// One item: the values of every property. A number is a list of one.
 type Item = Vec<Vec<f64>>;
 
-impl<'a> Reader<'a> {
+impl<'a> PlyReader<'a> {
     fn new(header: &'a Header) -> Result<Self, ReadError> {
         let fault = |line: usize, message: &str| ReadError {
             place: Place::Line(line),

@@ -2,8 +2,7 @@
 
 use super::{Place, ReadError};
 use crate::io::excerpt::excerpt;
-use crate::io::kind::Kind;
-use crate::io::load::Format;
+use crate::io::kind::{Format, Kind};
 
 /// How the values after the header are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,7 +116,7 @@ pub(super) struct Header {
 impl Header {
     /// Reads the header at the beginning of `bytes`.
     pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
-        let mut lines = Lines::new(bytes);
+        let mut lines = HeaderLines::new(bytes);
         if lines.next().map(<[u8]>::trim_ascii) != Some(b"ply") {
             let advice = Kind::advice(bytes, Format::Ply);
             return Err(
@@ -150,7 +149,7 @@ impl Header {
 }
 
 /// The lines of a header, which all end like the first.
-struct Lines<'a> {
+struct HeaderLines<'a> {
     bytes: &'a [u8],
     at: usize,
     line_end: &'static [u8],
@@ -158,7 +157,7 @@ struct Lines<'a> {
     number: usize,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> HeaderLines<'a> {
     fn new(bytes: &'a [u8]) -> Self {
         let first = bytes.iter().position(|b| matches!(b, b'\n' | b'\r'));
         let line_end: &[u8] = match first.map(|at| &bytes[at..]) {

@@ -8,7 +8,7 @@ use super::scene::Found;
 use super::transform::{self, Affine};
 use super::{ReadError, Usd};
 use crate::io::excerpt::excerpt;
-use crate::io::load::Lines;
+use crate::io::lines::Lines;
 use crate::mesh::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceId, FaceVaryingRule, Faces, Interpolation,
     Mesh, Primvar, VertexId,
@@ -44,7 +44,7 @@ pub(super) const INTERPOLATIONS: [(&str, Interpolation); 3] = [
 
 /// [`super::read`], once the mesh is found.
 pub(super) fn read(found: &Found) -> Result<Usd, ReadError> {
-    let mut reader = Reader {
+    let mut reader = UsdReader {
         attributes: Attributes::new(found.prim()),
         line: found.prim().line,
         mesh: Mesh::default(),
@@ -60,7 +60,7 @@ pub(super) fn read(found: &Found) -> Result<Usd, ReadError> {
     reader.creases()?;
     reader.corners_and_holes()?;
     reader.primvars(found.prim().attributes.as_slice(), is_left_handed != is_mirrored)?;
-    let Reader { attributes, mesh, lines, mut remarks, .. } = reader;
+    let UsdReader { attributes, mesh, lines, mut remarks, .. } = reader;
     let animated = |name: &String| {
         format!("`{}` changes over time: its first value is taken", excerpt(name.as_bytes()))
     };
@@ -68,7 +68,7 @@ pub(super) fn read(found: &Found) -> Result<Usd, ReadError> {
     Ok(Usd { path: found.path.clone(), mesh, lines, remarks })
 }
 
-struct Reader<'a> {
+struct UsdReader<'a> {
     attributes: Attributes<'a>,
     /// The line of the prim.
     line: usize,
@@ -77,7 +77,7 @@ struct Reader<'a> {
     remarks: Vec<String>,
 }
 
-impl Reader<'_> {
+impl UsdReader<'_> {
     fn missing(&self, name: &str) -> ReadError {
         ReadError { line: self.line, message: format!("the mesh has no `{name}`: add it") }
     }

@@ -16,8 +16,7 @@
 use super::ReadError;
 use super::lexer::{Lexer, Token};
 use crate::io::excerpt::excerpt;
-use crate::io::kind::Kind;
-use crate::io::load::Format;
+use crate::io::kind::{Format, Kind};
 
 /// What is at the top of a file.
 #[derive(Debug)]

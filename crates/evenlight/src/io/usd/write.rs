@@ -159,8 +159,8 @@ fn type_of(primvar: &Primvar) -> &'static str {
     }
 }
 
-/// Whether a set of texture coordinates is said to be one: it has values of corners, or a name of the
-/// usual kinds, as in `st`, `uv2`, `UVMap`.
+/// Whether a set of texture coordinates is said to be one: it has values of corners, or a name of
+/// the usual kinds, as in `st`, `uv2`, `UVMap`.
 fn is_texture(primvar: &Primvar) -> bool {
     let name = primvar.name.to_ascii_lowercase();
     let rest = name.strip_prefix("st").or_else(|| name.strip_prefix("uv"));

@@ -1,22 +1,23 @@
 //! Fair rings beside an infinitely sharp crease or the boundary. Ours, in no paper.
 //!
 //! The crease is what it always is, the cubic spline of its own vertices, so that both sides meet;
-//! inside the fan the rules are those of least energy, as in fairness-optimal subdivision (chapter 8):
-//! refinement is d' = A d + B u with the nodes that knot insertion does not give as the control u.
-//! Those on the crease are among them, since its curve has nodes of its own (module `net`).
+//! inside the fan the rules are those of least energy, as in fairness-optimal subdivision (chapter
+//! 8): refinement is d' = A d + B u with the nodes that knot insertion does not give as the control
+//! u. Those on the crease are among them, since its curve has nodes of its own (module `net`).
 //!
-//! 1. **Characteristic map.** The crease runs along x, its nodes shrinking by 1/2, so the map shrinks
-//!    by 1/2 in y too. Of all nets that may do so, it is the nearest to the map that scales angles
-//!    (module `energy`), by |D^2|^2.
-//! 2. **Eigen-nets** D of x^2 and x y, with eigenvalue 1/4, likewise by |D^2 (ring - m)|^2. There is
-//!    none of y^2: the normal curvature across the crease is 0 at a regular point of it, and tends
-//!    to 0 here.
-//! 3. **Regulator.** With e = d - D q, q the coefficients of x, y, x^2, x y, the sum over rings l of
-//!    16^l (|D^3 ring(e)|^2 + |D^2 ring(e)|^2 + .001 |e|^2) is least with v = K e (module
-//!    `regulator`). That of x and x^2 follows from the crease; y and x y are such that e costs least.
+//! 1. **Characteristic map.** The crease runs along x, its nodes shrinking by 1/2, so the map
+//!    shrinks by 1/2 in y too. Of all nets that may do so, it is the nearest to the map that scales
+//!    angles (module `energy`), by |D^2|^2.
+//! 2. **Eigen-nets** D of x^2 and x y, with eigenvalue 1/4, likewise by |D^2 (ring - m)|^2. There
+//!    is none of y^2: the normal curvature across the crease is 0 at a regular point of it, and
+//!    tends to 0 here.
+//! 3. **Regulator.** With e = d - D q, q the coefficients of x, y, x^2, x y, the sum over rings l
+//!    of 16^l (|D^3 ring(e)|^2 + |D^2 ring(e)|^2 + .001 |e|^2) is least with v = K e (module
+//!    `regulator`). That of x and x^2 follows from the crease; y and x y are such that e costs
+//!    least.
 //!
-//! So the eigenvalues are 1/2 twice, 1/4 twice, and then those of e, not above 1/8 but for rounding: the
-//! surface has a tangent plane and bounded curvature for every number of faces.
+//! So the eigenvalues are 1/2 twice, 1/4 twice, and then those of e, not above 1/8 but for
+//! rounding: the surface has a tangent plane and bounded curvature for every number of faces.
 
 mod energy;
 mod net;
@@ -33,9 +34,9 @@ use energy::{Polar, RingChart, RingForms};
 use net::{Net, SPLINE_NODES};
 use regulator::Regulator;
 
-/// The most faces between two sharp edges for which there are fair rules (`CreaseRings::Fair`): with
-/// more, sectors are slivers. From eight on the outer rings have more energy than Catmull-Clark's, the
-/// inner ones far less (chapter 11).
+/// The most faces between two sharp edges for which there are fair rules (`CreaseRings::Fair`):
+/// with more, sectors are slivers. From eight on the outer rings have more energy than
+/// Catmull-Clark's, the inner ones far less (chapter 11).
 pub const MAX_FAIR_FACES: usize = 12;
 
 /// What the rings of a fair fan are made with.

@@ -88,8 +88,8 @@ pub(crate) fn guide_monomials() -> Vec<(usize, usize)> {
     monomials()
 }
 
-/// For every power of [`guide_monomials`] the patch of bi-`degree` 3 to 6 that samples it, in jets at
-/// the corners, along the two coordinates of a map.
+/// For every power of [`guide_monomials`] the patch of bi-`degree` 3 to 6 that samples it, in jets
+/// at the corners, along the two coordinates of a map.
 pub(crate) fn sampled_guide(map: &[Vec<f64>; 2], degree: usize) -> Vec<Vec<f64>> {
     let count = match degree {
         6 => 4,

@@ -1,4 +1,5 @@
-//! What the rules of a valence and a contraction are made of: the characteristic ring and the guide.
+//! What the rules of a valence and a contraction are made of: the characteristic ring and the
+//! guide.
 //!
 //! At the speed of Catmull-Clark subdivision the guides of valences up to 16 are tabulated and the
 //! characteristic ring is that of the scheme `cc`. All others are derived when they are asked for,

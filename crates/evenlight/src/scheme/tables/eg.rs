@@ -18,8 +18,8 @@
 //! r > (n+1)/2 of 31 and 32.
 
 use super::{
-    Mirror, NODES, RULES, completed, eg_n03, eg_n05, eg_n06, eg_n07, eg_n08, eg_n09, eg_n10,
-    eg_n11, eg_n12, eg_n13, eg_n14, eg_n15, eg_n16, rule_index, table_index, weight,
+    EgTable, Mirror, NODES, RULES, completed, eg_n03, eg_n05, eg_n06, eg_n07, eg_n08, eg_n09,
+    eg_n10, eg_n11, eg_n12, eg_n13, eg_n14, eg_n15, eg_n16, rule_index, table_index, weight,
 };
 
 /// The tables of [`VALENCES`](super::VALENCES).
@@ -38,25 +38,6 @@ static TABLES: [&EgTable; 13] = [
     &eg_n15::TABLE,
     &eg_n16::TABLE,
 ];
-
-/// The Evolving-Guide rules of one valence: numerators over [`DENOMINATOR`](super::DENOMINATOR).
-///
-/// A rule is a list of rows r = 0, 1, ...; a row has the weights of the nodes
-/// 00 10 20 30 01 11 21 31 02 12 22 32 of sector s + r.
-pub(super) struct EgTable {
-    /// The valence n.
-    pub valence: usize,
-    /// The rule of d_11, rows 0..=n/2.
-    pub rule_11: &'static [[i64; NODES]],
-    /// The rule of d_22, rows 0..=n/2.
-    pub rule_22: &'static [[i64; NODES]],
-    /// The rule of d_21, all n rows.
-    pub rule_21: &'static [[i64; NODES]],
-    /// The rule of d_31, rows 0..=(n+1)/2.
-    pub rule_31: &'static [[i64; NODES]],
-    /// The rule of d_32, rows 0..=(n+1)/2.
-    pub rule_32: &'static [[i64; NODES]],
-}
 
 /// All weights of the Evolving-Guide rules of one valence but those of c_0.
 #[derive(Clone, Debug, PartialEq)]

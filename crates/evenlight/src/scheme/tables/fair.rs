@@ -43,8 +43,9 @@ mod fair4d_n14;
 mod fair4d_n15;
 mod fair4d_n16;
 
-use super::eg::{EgTable, EgWeights};
-use super::qas::{QasTable, QasWeights};
+use super::eg::EgWeights;
+use super::forms::{EgTable, QasTable};
+use super::qas::QasWeights;
 use super::table_index;
 use crate::net::Spline;
 

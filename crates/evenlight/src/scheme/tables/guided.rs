@@ -10,8 +10,9 @@
 //! the sector, and p_i0 the p_i0 of its image in line s-1; the files leave out what follows.
 
 use super::{
-    guided_n03, guided_n05, guided_n06, guided_n07, guided_n08, guided_n09, guided_n10, guided_n11,
-    guided_n12, guided_n13, guided_n14, guided_n15, guided_n16, table_index,
+    GuidedTable, guided_n03, guided_n05, guided_n06, guided_n07, guided_n08, guided_n09,
+    guided_n10, guided_n11, guided_n12, guided_n13, guided_n14, guided_n15, guided_n16,
+    table_index,
 };
 use crate::net::{CNET_NODES, NodeRef, cnet_node};
 
@@ -42,18 +43,6 @@ const LISTED: [(usize, usize); 20] = [
     (4, 4), (5, 4),
     (5, 5),
 ];
-
-/// The guide of one valence: numerators over [`DENOMINATOR`](super::DENOMINATOR).
-pub(super) struct GuidedTable {
-    /// The valence n.
-    pub valence: usize,
-    /// For each of [`LISTED`] the weights of the nodes (0,1) (0,2) (1,1) (1,2) (2,1) (2,2) of
-    /// sectors s + r: r = -1, 0, 1, .. for p_i0, r = 0, 1, .. for all others.
-    pub coefs: [&'static [[i64; CNET_NODES]]; 20],
-    /// The map of a cap.
-    #[cfg_attr(not(test), expect(dead_code, reason = "surfaces have rings at any depth, no caps"))]
-    pub cap_map: [[i64; 7]; 7],
-}
 
 /// The guide of one valence on the nodes of a c-net.
 #[derive(Clone, Copy)]

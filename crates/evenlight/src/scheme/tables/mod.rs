@@ -2,9 +2,9 @@
 //!
 //! The files `eg_nNN.rs` hold the rules of Evolving-Guide subdivision, read in [`eg`]; the files
 //! `qas_nNN.rs` those of Quadratic-Attraction subdivision, read in [`qas`]; the files
-//! `guided_nNN.rs` the guides of Guided C2 subdivision, read in [`guided`]; the folder `fair` our own
-//! rules, read in [`fair`]. They are exact integers
-//! over [`DENOMINATOR`]; the weight of the extraordinary point is never listed, being one minus the
+//! `guided_nNN.rs` the guides of Guided C2 subdivision, read in [`guided`]; the folder `fair` our
+//! own rules, read in [`fair`]. What they hold is in [`forms`]: exact integers over
+//! [`DENOMINATOR`]; the weight of the extraordinary point is never listed, being one minus the
 //! sum of all others. What a mirror symmetry repeats is, but for the convenience of whole rows,
 //! left out, and filled in by [`Mirror`].
 //!
@@ -27,6 +27,7 @@ mod eg_n14;
 mod eg_n15;
 mod eg_n16;
 mod fair;
+mod forms;
 mod guided;
 mod guided_n03;
 mod guided_n05;
@@ -61,9 +62,7 @@ pub(crate) use fair::{fair_evolving_weights, fair_weights};
 pub(crate) use guided::{GuideWeights, guide_weights};
 pub(crate) use qas::{QasWeights, qas_weights};
 
-use eg::EgTable;
-use guided::GuidedTable;
-use qas::QasTable;
+use forms::{EgTable, GuidedTable, QasTable};
 
 /// The common denominator of all numerators, 10^18.
 const DENOMINATOR: i64 = 1_000_000_000_000_000_000;

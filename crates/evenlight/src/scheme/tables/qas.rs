@@ -35,8 +35,9 @@
 //! exactly; the files leave out what follows.
 
 use super::{
-    Mirror, NODES, RULES, completed, qas_n03, qas_n05, qas_n06, qas_n07, qas_n08, qas_n09, qas_n10,
-    qas_n11, qas_n12, qas_n13, qas_n14, qas_n15, qas_n16, rule_index, table_index, weight,
+    Mirror, NODES, QasTable, RULES, completed, qas_n03, qas_n05, qas_n06, qas_n07, qas_n08,
+    qas_n09, qas_n10, qas_n11, qas_n12, qas_n13, qas_n14, qas_n15, qas_n16, rule_index,
+    table_index, weight,
 };
 
 /// The tables of [`VALENCES`](super::VALENCES).
@@ -58,51 +59,6 @@ static TABLES: [&QasTable; 13] = [
 
 /// For q_2..q_6, counted from 0, the images in the mirror that exchanges the lines of the sector.
 const Q_MIRRORED: [usize; 5] = [2, 4, 0, 3, 1];
-
-/// The Quadratic-Attraction rules of one valence: numerators over
-/// [`DENOMINATOR`](super::DENOMINATOR).
-///
-/// `kappa` has the weights of the twelve nodes 00 10 20 30 01 11 21 31 02 12 22 32 of sector s;
-/// of 30 31 32 20 21 22 of sector s-1; and, in rule 21 alone, of 02 12 22 of sector s+1:
-///
-/// ```text
-///   j=4  15 16 17
-///   j=3  12 13 14
-///   j=2   8  9 10 11 20        the L-net of sector s; at j = 3, 4 nodes of sector s-1,
-///   j=1   4  5  6  7 19        at i = 4 of sector s+1
-///   j=0   0  1  2  3 18
-///       i=0      i=3
-/// ```
-///
-/// `tau` has the weights of q_2..q_6.
-pub(super) struct QasTable {
-    /// The valence n.
-    pub valence: usize,
-    /// The rule of d_11, 18 weights.
-    pub kappa_11: &'static [i64],
-    /// The rule of d_22, 18 weights.
-    pub kappa_22: &'static [i64],
-    /// The rule of d_21, 21 weights.
-    pub kappa_21: &'static [i64],
-    /// The rule of d_31, 18 weights.
-    pub kappa_31: &'static [i64],
-    /// The rule of d_32, 18 weights.
-    pub kappa_32: &'static [i64],
-    /// The weights of q in d_11.
-    pub tau_11: [i64; 5],
-    /// The weights of q in d_22.
-    pub tau_22: [i64; 5],
-    /// The weights of q in d_21.
-    pub tau_21: [i64; 5],
-    /// Twice the weights of q of sector s in d_31.
-    pub tau_31: [i64; 5],
-    /// Twice the weights of q of sector s in d_32.
-    pub tau_32: [i64; 5],
-    /// The rule of q_4, rows r = 0..=(n+1)/2 of the twelve nodes of sector s + r.
-    pub mu_4: &'static [[i64; NODES]],
-    /// The rule of q_5, rows r = 0..=n/2.
-    pub mu_5: &'static [[i64; NODES]],
-}
 
 /// All weights of the Quadratic-Attraction rules of one valence but those of p.
 #[derive(Clone, Debug, PartialEq)]

@@ -116,7 +116,8 @@ fn patch_series([u, v]: [f64; 2]) -> [[f64; 16]; 10] {
     EXPONENTS.map(|[i, j]| std::array::from_fn(|k| u[i][k / 4] * v[j][k % 4]))
 }
 
-/// The series of the four Bernstein polynomials of degree 3: entry `[r][k]` is of e^r in B_k(t + e).
+/// The series of the four Bernstein polynomials of degree 3: entry `[r][k]` is of e^r in B_k(t +
+/// e).
 fn bernstein_series(t: f64) -> [[f64; 4]; 4] {
     const POWERS: [[f64; 4]; 4] = [
         [1.0, -3.0, 3.0, -1.0],

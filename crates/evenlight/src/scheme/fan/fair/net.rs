@@ -2,14 +2,14 @@
 //!
 //! ```text
 //!   line s+1
-//!   (0,3)  (1,3)  (2,3)  (3,3)      a net has the nodes up to 3 but for the centre; a ring of 2 x 2
-//!   (0,2)  (1,2)  (2,2)  (3,2)      patches per square is made of the refined nodes up to 5. Those
-//!   (0,1)  (1,1)  (2,1)  (3,1)      from 3 on follow by knot insertion, those up to 2 are free.
+//!   (0,3)  (1,3)  (2,3)  (3,3)      a net has the nodes up to 3 but for the centre; a ring of
+//!   (0,2)  (1,2)  (2,2)  (3,2)      2 x 2 patches per square is made of the refined nodes up to 5.
+//!   (0,1)  (1,1)  (2,1)  (3,1)      They follow from 3 on by knot insertion; the rest is free.
 //!     .    (1,0)  (2,0)  (3,0)  line s
 //! ```
 //!
-//! On the crease (a,0) is free too. The curve itself is the cubic spline of the nodes P_a, which go by
-//! their own rules, and the node beyond makes the patches have it:
+//! On the crease (a,0) is free too. The curve itself is the cubic spline of the nodes P_a, which go
+//! by their own rules, and the node beyond makes the patches have it:
 //!
 //! ```text
 //!   (a,-1) + 4 (a,0) + (a,1) = 6 P_a.
@@ -213,8 +213,8 @@ impl Net {
         }
         rule
     }
-    /// The BB coefficients of the patches of the net itself between 1 and 2 in sector `s`, in the order
-    /// [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2]: those of a finite end of the rings.
+    /// The BB coefficients of the patches of the net itself between 1 and 2 in sector `s`, in the
+    /// order [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2]: those of a finite end of the rings.
     pub(super) fn cells(self, s: isize) -> [Vec<Row>; 3] {
         [[0, 1], [1, 0], [1, 1]].map(|[a, b]: [isize; 2]| {
             let rows = to_bb(|i, j| self.old(s, a - 1 + i, b - 1 + j));

@@ -25,8 +25,8 @@ impl Regulator {
         Self { net, free: net.free(), step: net.regular_step() }
     }
 
-    /// Of all nets whose refinement may be `factor` times themselves, with the crease's nodes given,
-    /// the one of least |D^2 f|^2 - 2 `linear`(f) on its ring.
+    /// Of all nets whose refinement may be `factor` times themselves, with the crease's nodes
+    /// given, the one of least |D^2 f|^2 - 2 `linear`(f) on its ring.
     pub(super) fn eigen_net(
         &self,
         factor: f64,
@@ -52,8 +52,8 @@ impl Regulator {
             .collect()
     }
 
-    /// All nodes of a net that refines to `factor` times itself, by its free nodes and the spline's:
-    /// nodes 3 follow from them.
+    /// All nodes of a net that refines to `factor` times itself, by its free nodes and the
+    /// spline's: nodes 3 follow from them.
     fn eigen_nodes(&self, factor: f64) -> Matrix {
         let spline = self.net.first_spline_node()..self.net.num_nodes();
         let known: Vec<usize> = self.free.iter().copied().chain(spline).collect();

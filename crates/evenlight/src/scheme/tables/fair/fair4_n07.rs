@@ -7,7 +7,7 @@
 // tau: q_2 q_3, q_4 q_5, q_6 of sector s. mu: a row holds the twelve nodes of sector s + r, r = 0,
 // 1, ... from the top. What a mirror symmetry repeats is left out.
 
-use crate::scheme::tables::qas::QasTable;
+use crate::scheme::tables::QasTable;
 
 #[rustfmt::skip]
 pub(in crate::scheme::tables) static TABLE: QasTable = QasTable {

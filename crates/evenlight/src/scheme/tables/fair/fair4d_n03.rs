@@ -5,7 +5,7 @@
 // d_00 d_10 d_20 d_30, d_01 d_11 d_21 d_31, d_02 d_12 d_22 d_32 of sector s + r, r = 0, 1, ... from
 // the top; rows that a mirror symmetry repeats are left out.
 
-use crate::scheme::tables::eg::EgTable;
+use crate::scheme::tables::EgTable;
 
 #[rustfmt::skip]
 pub(in crate::scheme::tables) static TABLE: EgTable = EgTable {

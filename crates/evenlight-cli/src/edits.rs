@@ -1,17 +1,68 @@
-//! Quadratics of a file, put into surfaces.
+//! `--q`: quadratics of a file, put into surfaces.
+
+mod file;
 
 use std::collections::BTreeMap;
 
+use clap::Args;
 use evenlight::mesh::isolation::Place;
 use evenlight::net::Quadratic;
 use evenlight::point::{dot, sub};
 use evenlight::rings::Rings;
 use evenlight::surface::PointRule;
-use evenlight::{FaceId, Surface, Vector, VertexId};
+use evenlight::{FaceId, SchemeKind, Surface, Vector, VertexId};
 
-use super::file::{self, Change, Entry};
 use crate::error::{Failure, warn};
-use crate::input::{Source, WHY_OMITTED};
+use crate::input::{self, Source, WHY_OMITTED};
+use file::{Change, Entry};
+
+/// The option `--q`.
+#[derive(Args, Clone, Debug)]
+pub struct QArg {
+    /// JSON file with quadratics that replace the default ones (qas3, qas4); `-` for stdin
+    ///
+    /// A list (or {"points": LIST}) of objects with "vertex": ID, or "face": ID for the centre
+    /// of a face that is no quad, numbered from 0, and one of:
+    ///
+    /// "affine": {"matrix": [[3], [3], [3]], "translation": [3]}: the default q moved, about its
+    /// own centre p: x -> p + M (x - p) + t. The matrix M has rows; without it, M is the
+    /// identity; without translation, t is 0.
+    ///
+    /// "coefficients": [6 points]: q_1 to q_6 in sector 0, as `evenlight q --json` prints them.
+    ///
+    /// "sectors": [n lists of 6 points]: one proposal per sector, as `evenlight q --sectors`
+    /// prints them; their mean is taken.
+    #[arg(long = "q", value_name = "FILE")]
+    pub file: Option<Source>,
+}
+
+impl QArg {
+    /// The quadratics for surfaces over `cage` with the given schemes.
+    ///
+    /// # Errors
+    ///
+    /// Wrong usage if none of the schemes has a quadratic, or cage and quadratics would both come
+    /// from stdin; else if the file cannot be read or understood.
+    pub fn read(&self, cage: &Source, schemes: &[SchemeKind]) -> Result<Edits, Failure> {
+        let Some(source) = &self.file else { return Ok(Edits::default()) };
+        if !schemes.iter().any(|scheme| scheme.has_quadratic()) {
+            let names: Vec<&str> = schemes.iter().map(|scheme| scheme.name()).collect();
+            return Err(no_quadratic("--q", &names.join(", ")));
+        }
+        input::refuse_shared_stdin(&[("cage", cage), ("--q", source)])?;
+        Edits::parse(source, &source.read_text()?)
+    }
+}
+
+/// The failure of something that needs a quadratic.
+pub fn no_quadratic(what: &str, scheme: &str) -> Failure {
+    let with = SchemeKind::ALL.into_iter().filter(|scheme| scheme.has_quadratic());
+    let with: Vec<&str> = with.map(SchemeKind::name).collect();
+    Failure::Usage(format!(
+        "{what}: the scheme {scheme} has no quadratic; choose --scheme {}",
+        with.join(" or ")
+    ))
+}
 
 /// The quadratics of a file, or none.
 #[derive(Clone, Debug, Default)]
@@ -73,6 +124,7 @@ fn quadratic(surface: &Surface, point: usize, change: &Change) -> Result<Quadrat
             PointRule::CatmullClark(reason) => ("Catmull-Clark's rule", reason.to_string()),
             PointRule::FairCrease(reason) => ("the fair rule beside a crease", reason.to_string()),
             PointRule::Scheme => ("Catmull-Clark's rule", "no quadratic".to_owned()),
+            _ => ("another rule", "not that of the scheme".to_owned()),
         };
         return Err(format!("the point has {rule} ({reason}), which has no q"));
     };
