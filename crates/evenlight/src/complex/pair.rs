@@ -27,7 +27,7 @@ pub(super) fn pairs(sides: &[Side]) -> Vec<Pair> {
         let side = &sides[k as usize];
         (side.carrier, side.is_forward, side.interval[0])
     };
-    order.sort_unstable_by(|&a, &b| key(a).cmp(&key(b)));
+    order.sort_unstable_by_key(|&k| key(k));
     let mut pairs = Vec::with_capacity(sides.len() / 2 + sides.len() / 8);
     let mut ends = Vec::new();
     for run in order.chunk_by(|&a, &b| sides[a as usize].carrier == sides[b as usize].carrier) {
