@@ -15,6 +15,7 @@ mod demo_cage;
 #[cfg(feature = "library")]
 mod document;
 mod feature_cages;
+mod font;
 #[cfg(feature = "library")]
 mod guided;
 mod osd;
@@ -47,6 +48,7 @@ enum Chore {
     #[cfg(feature = "library")]
     DemoCage(demo_cage::Arguments),
     FeatureCages(feature_cages::Arguments),
+    Font(font::Arguments),
     #[cfg(feature = "library")]
     Guided(guided::Arguments),
     Osd(osd::Arguments),
@@ -81,6 +83,7 @@ fn run(chore: &Chore) -> Result<(), Box<dyn Error>> {
         #[cfg(feature = "library")]
         Chore::DemoCage(arguments) => demo_cage::run(arguments),
         Chore::FeatureCages(arguments) => feature_cages::run(arguments),
+        Chore::Font(arguments) => font::run(arguments),
         #[cfg(feature = "library")]
         Chore::Guided(arguments) => guided::run(arguments),
         Chore::Osd(arguments) => osd::run(arguments),

@@ -164,7 +164,7 @@ impl Report {
                 None => Self::of_cage(cage, notices, points, options),
             },
             Err(error) => Self {
-                errors: error.faults(),
+                errors: error.diagnostics().into_iter().map(|fault| fault.message).collect(),
                 warnings: error.notices().iter().map(ToString::to_string).collect(),
                 ..Self::default()
             },

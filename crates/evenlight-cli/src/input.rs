@@ -10,9 +10,8 @@ use std::sync::Arc;
 
 use clap::Args;
 use evenlight::Cage;
-use evenlight::io::load::{Format, LoadError, Loaded, Naming};
-use evenlight::io::obj::Reason;
-use evenlight::mesh::MeshError;
+use evenlight::io::FileError;
+use evenlight::io::load::{Format, LoadError, Loaded};
 
 use crate::error::{Failure, warn};
 
@@ -56,48 +55,24 @@ impl Source {
     fn format(&self) -> Option<Format> {
         match self {
             Self::Stdin => None,
-            Self::File(path) => Format::from_extension(path.extension()?.to_str()?),
+            Self::File(path) => Format::from_path(path),
         }
     }
 
-    /// The failure that a cage from here cannot be used; says why it was read as OBJ, if that may
-    /// be the cause.
+    /// The failure that a cage from here cannot be used.
     pub fn refused(&self, error: &LoadError) -> Failure {
-        let is_file = matches!(self, Self::File(_));
-        let note = match (self.format(), is_other_kind(error)) {
-            (Some(_), true) => "\nnote: it is read as OBJ because of its name".to_owned(),
-            (None, false) if is_file && is_no_obj(error) => format!(
-                "\nnote: it is read as OBJ, since neither its name nor its beginning tells what it \
-                 is; the names of cages end in {}",
-                Format::ALL.map(Format::ending).join(", ")
-            ),
-            _ => String::new(),
-        };
-        Failure::Unusable(format!("{self}: {error}{note}"))
+        Failure::Unusable(match self {
+            Self::Stdin => format!("{self}: {error}"),
+            Self::File(path) => {
+                FileError::Load { path: path.clone(), error: error.clone() }.to_string()
+            }
+        })
     }
 
     /// All bytes, which must be UTF-8; a failure names the place.
     pub fn read_text(&self) -> Result<String, Failure> {
         String::from_utf8(self.read()?)
             .map_err(|_| Failure::Unusable(format!("{self}: this is not a text file (UTF-8)")))
-    }
-}
-
-/// Whether the file was to be read as OBJ and is something else.
-fn is_other_kind(error: &LoadError) -> bool {
-    let LoadError::Obj(error) = error else { return false };
-    error.faults.iter().any(|fault| matches!(fault.reason, Reason::OtherKind { .. }))
-}
-
-/// Whether the file may be no OBJ at all, though it was read as such.
-fn is_no_obj(error: &LoadError) -> bool {
-    match error {
-        LoadError::Obj(_) => true,
-        LoadError::Check(refusal) => {
-            let no_faces = |fault: &MeshError| matches!(fault, MeshError::NoFaces { .. });
-            matches!(refusal.naming, Naming::Lines(_)) && refusal.error.errors.iter().any(no_faces)
-        }
-        _ => false,
     }
 }
 

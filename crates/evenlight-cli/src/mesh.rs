@@ -1,10 +1,8 @@
 //! `evenlight mesh`: triangles of the limit surface.
 
 use clap::{Args, ValueEnum};
-use evenlight::Surface;
-use evenlight::io::{glb, obj_out, ply_out, stl};
-use evenlight::mesh::Primvar;
 use evenlight::tessellate::{CornerChannels, TriangleMesh, tessellate};
+use evenlight::{Surface, io};
 
 use crate::cap::CapRingsArg;
 use crate::error::{Failure, warn};
@@ -49,6 +47,17 @@ pub enum MeshFormat {
     Glb,
 }
 
+impl From<MeshFormat> for io::MeshFormat {
+    fn from(format: MeshFormat) -> Self {
+        match format {
+            MeshFormat::Obj => Self::Obj,
+            MeshFormat::Ply => Self::Ply,
+            MeshFormat::Stl => Self::Stl,
+            MeshFormat::Glb => Self::Glb,
+        }
+    }
+}
+
 /// Runs `evenlight mesh`.
 pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let format = args.output.format(args.format)?;
@@ -59,12 +68,11 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let mesh = progress.show(|| triangles(&surface, args.rate.into()))?;
     progress.step();
     progress.stage("Writing triangles");
-    let channels = match format {
-        MeshFormat::Stl => CornerChannels::default(),
-        _ => mesh.corner_channels(&surface),
-    };
+    let has_channels = io::MeshFormat::from(format).has_channels();
+    let channels =
+        if has_channels { mesh.corner_channels(&surface) } else { CornerChannels::default() };
     write(&mesh, &channels, format, &args.output)?;
-    let omitted = omitted(&surface, &mesh, &channels, format);
+    let omitted = io::MeshFormat::from(format).omitted(&surface, &mesh, &channels);
     omitted.iter().for_each(|sentence| warn(format_args!("{}: {sentence}", args.output)));
     Ok(())
 }
@@ -81,39 +89,5 @@ pub fn write(
     format: MeshFormat,
     target: &Target,
 ) -> Result<(), Failure> {
-    target.write(|mut out| match format {
-        MeshFormat::Obj => obj_out::write_textured(mesh, channels, &mut out),
-        MeshFormat::Ply => ply_out::write_textured(mesh, channels, &mut out),
-        MeshFormat::Stl => stl::write(mesh, &mut out),
-        MeshFormat::Glb => glb::write_textured(mesh, channels, &mut out),
-    })
-}
-
-/// What of the cage is not in the file, in sentences.
-fn omitted(
-    surface: &Surface,
-    mesh: &TriangleMesh,
-    channels: &CornerChannels,
-    format: MeshFormat,
-) -> Vec<String> {
-    let of_format = match format {
-        MeshFormat::Obj => obj_out::omitted(mesh, channels),
-        MeshFormat::Ply => ply_out::omitted(mesh, channels),
-        MeshFormat::Stl | MeshFormat::Glb => Vec::new(),
-    };
-    let carried = |p: &&Primvar| {
-        channels.uv_sets.iter().chain(&channels.color).any(|channel| channel.name == p.name)
-    };
-    let others = surface.primvars().iter().filter(|p| !carried(p)).map(|p| format!("`{}`", p.name));
-    let others = others.collect::<Vec<_>>().join(", ");
-    let reason = match format {
-        _ if others.is_empty() => None,
-        MeshFormat::Stl => Some("STL holds nothing but triangles"),
-        _ => Some(
-            "of the channels, the file has those of two numbers (texture coordinates) and the first \
-             named `color` or `displayColor` of three or four",
-        ),
-    };
-    let sentence = reason.map(|reason| format!("{reason}: {others} left out"));
-    of_format.into_iter().chain(sentence).collect()
+    target.write(|mut out| io::MeshFormat::from(format).write(mesh, channels, &mut out))
 }

@@ -7,15 +7,13 @@
 //!
 //! # A tour along the pipeline
 //!
-//! Read a cage and check it; all faults are named.
+//! Read a cage, OBJ, PLY or USD, and check it; all faults are named, with their lines in the file.
 //!
 //! ```
 //! use std::sync::Arc;
-//! use evenlight::io::load::Format;
+//! use evenlight::io;
 //!
-//! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\n\
-//!             v -1 1 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-//! let (cage, notices) = Format::Obj.read_cage(text.as_bytes())?;
+//! let (cage, notices) = io::read_cage("examples/cube.obj")?;
 //! assert!(notices.is_empty());
 //! assert_eq!(cage.interior_valences(), [(3, 8)].into());
 //!
@@ -46,6 +44,14 @@
 //! assert_eq!(triangles.triangles.len(), 6 * 8 * 8 * 2);
 //! let report = curvature_report(&surface, 6)?;
 //! assert!(report.jumps.parametric < 1e-11, "all patches join C2");
+//!
+//! // Write a file: triangles in the format that the ending of its name tells, or patches.
+//! use evenlight::io::{MeshFormat, PatchFormat};
+//!
+//! let format = MeshFormat::from_path("cube.glb").expect("a known ending");
+//! let mut file = Vec::new();
+//! format.write(&triangles, &triangles.corner_channels(&surface), &mut file)?;
+//! PatchFormat::Json.write(&surface, 6, &mut file)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -69,6 +75,23 @@
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
 //! | [`io`] | OBJ, PLY, USD, glTF, STL, BezierView |
 //! | `picture` (feature) | pictures with exact normals |
+//!
+//! # Features
+//!
+//! None is on by default; then the only dependency is `thiserror`, and the crate builds for
+//! WebAssembly.
+//!
+//! | feature | adds | needs |
+//! | --- | --- | --- |
+//! | `parallel` | all threads in tessellation and pictures; the bytes stay the same | rayon |
+//! | `picture` | module `picture`: pictures with exact normals, as PNG | png |
+//! | `derive` | rules of guided schemes derived when asked for: any contraction, valences to 32 | evenlight-guide |
+//! | `spectrum` | module `analyse::spectrum`: eigenvalues of the subdivision matrices | nalgebra |
+//!
+//! # Read on
+//!
+//! The chapters of the documentation are in [`docs`]: notation, surface, nets, derivation,
+//! tables, shape, files. `examples` has small programs: load, evaluate, patches.
 //!
 //! # What is not promised
 //!
@@ -106,7 +129,10 @@ pub use point::{Point, Vector};
 pub use scheme::{Contraction, RuleSet, SchemeKind, Variant};
 pub use surface::{Layout, QuadId, Surface, SurfaceOptions};
 
-/// The examples of the README are tested.
+#[cfg(any(doc, doctest))]
+pub mod docs;
+
+/// The example of the crate's README is tested; that of the repository in `xtask`.
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;

@@ -10,6 +10,7 @@ use evenlight::mesh::BoundaryRule;
 use evenlight::patch::{Answer, Jet};
 use evenlight::surface::{ArrayError, row_width};
 use evenlight::task::Task;
+use evenlight::tessellate::{TriangleArrays, tessellate, tessellate_into};
 use evenlight::{QuadId, SchemeKind, Surface, SurfaceOptions};
 
 fn places(surface: &Surface, count: usize) -> (Vec<u32>, Vec<[f64; 2]>) {
@@ -117,4 +118,38 @@ fn blocks_hold_all_patches() {
         }
     }
     assert!(met.into_iter().all(|met| met));
+}
+
+#[test]
+fn triangles_are_written_into_arrays_and_into_used_meshes() {
+    let surface = common::surface(&cage("features/cube_creased.obj"), SchemeKind::Qas4);
+    let mesh = tessellate(&surface, 3).unwrap();
+    assert!(mesh.is_folded());
+    let mut again =
+        tessellate(&common::surface(&cage("own_polygons.obj"), SchemeKind::Qas4), 4).unwrap();
+    tessellate_into(&surface, 3, &mut again).unwrap();
+    assert!(again == mesh, "nothing of what was there remains");
+    assert!(tessellate_into(&surface, 0, &mut again).is_err() && again == mesh);
+
+    let (vertices, sides) = (mesh.positions.len(), mesh.normals.len());
+    let (mut positions, mut normals) = (vec![0.0_f64; 3 * vertices], vec![0.0; 3 * sides]);
+    let (mut curvature, count) = (vec![0.0; 2 * sides], 3 * mesh.triangles.len());
+    let (mut triangles, mut corner_sides) = (vec![0; count], vec![0; count]);
+    mesh.write_arrays(TriangleArrays {
+        positions: Some(&mut positions),
+        normals: Some(&mut normals),
+        curvature: Some(&mut curvature),
+        triangles: Some(&mut triangles),
+        corner_sides: Some(&mut corner_sides),
+    })
+    .unwrap();
+    assert_eq!(positions, mesh.positions.as_flattened());
+    assert_eq!(normals, mesh.normals.as_flattened());
+    assert!(curvature.chunks(2).zip(&mesh.gauss).all(|(row, k)| row[0].to_bits() == k.to_bits()));
+    assert_eq!(triangles, mesh.triangles.as_flattened());
+    assert_eq!(corner_sides, mesh.sides().as_flattened());
+    let mut short = vec![0.0_f32; 3 * vertices - 1];
+    let arrays = TriangleArrays { positions: Some(&mut short[..]), ..TriangleArrays::default() };
+    let error = mesh.write_arrays(arrays).unwrap_err();
+    assert!(matches!(error, ArrayError::Length { what: "positions", .. }), "{error}");
 }

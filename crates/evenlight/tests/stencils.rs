@@ -333,14 +333,14 @@ fn patches_are_those_of_the_surface() {
     for (name, cage) in some_cages() {
         for options in all_options() {
             let mut surface = Surface::build(cage.clone(), options).unwrap();
-            for caps in [None, Some(CapOptions { rings: 12, ..CapOptions::default() })] {
+            for caps in [None, Some(CapOptions { rings: 13, ..CapOptions::default() })] {
                 surface.set_caps(caps).unwrap();
                 let wanted =
                     [Role::Ring(1), Role::Ring(5), Role::Ring(12), Role::Regular, Role::Cap];
                 let places: Vec<_> =
-                    surface.patch_places(12).filter(|place| wanted.contains(&place.role)).collect();
+                    surface.patch_places(13).filter(|place| wanted.contains(&place.role)).collect();
                 let builder = StencilBuilder::of_surface(&surface).unwrap();
-                assert!(builder.patch_places(12).unwrap().len() >= places.len());
+                assert!(builder.patch_places(13).unwrap().len() >= places.len());
                 let patches = builder.patches(&places).unwrap();
                 let name = format!("{name} {} {caps:?}", options.scheme.name());
                 let mut expected = Vec::new();

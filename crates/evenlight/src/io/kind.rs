@@ -1,5 +1,7 @@
 //! The kinds of files, by their names and by how they begin.
 
+use std::path::Path;
+
 /// The kinds of files that hold cages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -43,6 +45,11 @@ impl Format {
             "usda" | "usd" | "usdc" | "usdz" => Some(Self::Usda),
             _ => None,
         }
+    }
+
+    /// The kind of file that the ending of its name tells, if it does.
+    pub fn from_path(path: impl AsRef<Path>) -> Option<Self> {
+        Self::from_extension(path.as_ref().extension()?.to_str()?)
     }
 
     /// The kind of file that `bytes` seem to be, by their first line; OBJ if by none.

@@ -17,7 +17,9 @@ pub use super::lines::Lines;
 use super::obj::{self, Obj, Skipped, UnknownTag};
 use super::ply::{self, Ply};
 use super::usd::{self, Usd};
-use crate::mesh::{Cage, CheckError, FaceId, Mesh, Names, VertexId, Warning};
+use crate::mesh::{
+    Cage, CheckError, FaceId, Marks, Mesh, MeshError, Names, Tags, VertexId, Warning,
+};
 
 impl Format {
     /// Reads `bytes` as a file of this kind; of USD the mesh at the path `prim`, or the only one.
@@ -81,13 +83,17 @@ impl Loaded {
     /// As [`Cage::new`], in the numbers of the file.
     pub fn check(self) -> Result<(Cage, Vec<Notice>), LoadError> {
         let Self { mesh, naming, mut notices } = self;
+        let tags = mesh.tags.clone();
         match Cage::new(mesh) {
             Ok(cage) => {
                 let of_mesh = cage.warnings().iter().map(|w| Notice::of_warning(w, &naming));
                 notices.extend(of_mesh);
                 Ok((cage, notices))
             }
-            Err(error) => Err(LoadError::Check(Box::new(Refusal { error, naming, notices }))),
+            Err(error) => {
+                let lines = error.errors.iter().map(|fault| naming.line(fault, &tags)).collect();
+                Err(LoadError::Check(Box::new(Refusal { error, naming, lines, notices })))
+            }
         }
     }
 }
@@ -126,6 +132,43 @@ pub enum Naming {
     LinesFromZero(Lines),
 }
 
+impl Naming {
+    /// The line on which a vertex stands, if it is known.
+    pub fn vertex_line(&self, vertex: VertexId) -> Option<u32> {
+        match self {
+            Self::Lines(source) => source.vertex_line(vertex),
+            Self::LinesFromZero(Lines { vertices, .. }) => vertices.get(vertex.index()).copied(),
+        }
+    }
+
+    /// The line on which a face begins, if it is known.
+    pub fn face_line(&self, face: FaceId) -> Option<u32> {
+        match self {
+            Self::Lines(source) => source.face_line(face),
+            Self::LinesFromZero(Lines { faces, .. }) => faces.get(face.index()).copied(),
+        }
+    }
+
+    /// The line where a fault of a mesh with `tags` is to be mended: that of the tag, or else the
+    /// first face, or else the first vertex that it is about.
+    fn line(&self, fault: &MeshError, tags: &Tags) -> Option<u32> {
+        match (fault, self) {
+            (
+                MeshError::UnknownTag { what } | MeshError::Sharpness { what, .. },
+                Self::Lines(source),
+            ) => source.tag_line(*what, tags),
+            (MeshError::UnknownTag { .. } | MeshError::Sharpness { .. }, _) => None,
+            _ => self.line_of(&fault.marks()),
+        }
+    }
+
+    /// The line of the first face among `marks`, or else of the first vertex.
+    fn line_of(&self, marks: &Marks) -> Option<u32> {
+        let face = marks.faces.first().and_then(|face| self.face_line(*face));
+        face.or_else(|| marks.vertices.first().and_then(|vertex| self.vertex_line(*vertex)))
+    }
+}
+
 impl Names for Naming {
     fn vertex(&self, vertex: VertexId) -> String {
         match self {
@@ -150,11 +193,13 @@ pub enum Notice {
     UnknownTag(UnknownTag),
     /// The lines of groups, materials, normals and the like.
     Skipped(Skipped),
-    /// The vertices in no face.
-    UnusedVertices {
-        /// How many there are.
-        count: usize,
-        /// The sentence that names the first of them.
+    /// What the check of the mesh accepted, as vertices in no face.
+    OfMesh {
+        /// What it is.
+        warning: Warning,
+        /// The line of the first vertex that it is about, if it is known.
+        line: Option<u32>,
+        /// The sentence, in the numbers of the file.
         message: String,
     },
     /// Anything else, in a sentence.
@@ -162,12 +207,9 @@ pub enum Notice {
 }
 
 impl Notice {
-    fn of_warning(warning: &Warning, names: &dyn Names) -> Self {
-        match warning {
-            Warning::UnusedVertices(vertices) => {
-                Self::UnusedVertices { count: vertices.len(), message: warning.describe(names) }
-            }
-        }
+    fn of_warning(warning: &Warning, naming: &Naming) -> Self {
+        let line = naming.line_of(&warning.marks());
+        Self::OfMesh { warning: warning.clone(), line, message: warning.describe(naming) }
     }
 }
 
@@ -176,7 +218,7 @@ impl fmt::Display for Notice {
         match self {
             Self::UnknownTag(tag) => tag.fmt(f),
             Self::Skipped(skipped) => skipped.fmt(f),
-            Self::UnusedVertices { message, .. } | Self::Remark(message) => f.write_str(message),
+            Self::OfMesh { message, .. } | Self::Remark(message) => f.write_str(message),
         }
     }
 }
@@ -200,23 +242,6 @@ pub enum LoadError {
 }
 
 impl LoadError {
-    /// Every fault in a sentence of its own.
-    pub fn faults(&self) -> Vec<String> {
-        match self {
-            Self::Obj(error) => {
-                let more = (error.num_more > 0)
-                    .then(|| format!("and {} more lines that cannot be read", error.num_more));
-                error.faults.iter().map(ToString::to_string).chain(more).collect()
-            }
-            Self::Ply(error) => vec![error.to_string()],
-            Self::Usd(error) => vec![error.to_string()],
-            Self::Check(refusal) => {
-                let faults = refusal.error.errors.iter();
-                faults.map(|fault| fault.describe(&refusal.naming)).collect()
-            }
-        }
-    }
-
     /// What was ignored or completed before the fault was found.
     pub fn notices(&self) -> &[Notice] {
         match self {
@@ -233,6 +258,8 @@ pub struct Refusal {
     pub error: CheckError,
     /// What the file calls its vertices and faces.
     pub naming: Naming,
+    /// The line where each fault is to be mended, if it is known.
+    pub lines: Vec<Option<u32>>,
     /// What was ignored or completed.
     pub notices: Vec<Notice>,
 }

@@ -45,7 +45,7 @@
 use std::fmt;
 use std::io::Write;
 
-use crate::mesh::{FaceId, Mesh, Names, Tags, VertexId};
+use crate::mesh::{FaceId, Mesh, Names, Tagged, Tags, VertexId};
 
 mod channels;
 mod fault;
@@ -126,6 +126,17 @@ impl Source {
     /// The line on which `face` begins; `None` if there is no such face.
     pub fn face_line(&self, face: FaceId) -> Option<u32> {
         self.face_lines.get(face.index()).copied()
+    }
+
+    /// The line of the first of `tags` that is on `what`.
+    pub(super) fn tag_line(&self, what: Tagged, tags: &Tags) -> Option<u32> {
+        let TagLines { creases, corners, holes } = &self.tag_lines;
+        let at = |k: Option<usize>, lines: &[u32]| lines.get(k?).copied();
+        match what {
+            Tagged::Edge(edge) => at(tags.creases.iter().position(|c| c.edge == edge), creases),
+            Tagged::Vertex(v) => at(tags.corners.iter().position(|c| c.vertex == v), corners),
+            Tagged::Face(face) => at(tags.holes.iter().position(|&hole| hole == face), holes),
+        }
     }
 
     /// What is in `tags` and not known here yet is of `line`.

@@ -326,7 +326,7 @@ impl fmt::Display for PrimvarFault {
 }
 
 /// Something that was accepted but should be known.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Warning {
     /// Vertices that are in no face; they are ignored, and the others keep their numbers.

@@ -11,6 +11,7 @@ mod fan;
 mod fault;
 pub mod fix;
 pub mod isolation;
+mod marks;
 mod nets;
 pub(crate) mod refine;
 pub(crate) mod sharpness;
@@ -21,6 +22,7 @@ pub(crate) use check::check_values;
 pub use check::{Cage, ValuesError};
 pub use fault::{CheckError, LibraryNumbers, MeshError, Names, PrimvarFault, Tagged, Warning};
 pub(crate) use fault::{MAX_LISTED, one_per_line};
+pub use marks::Marks;
 pub(crate) use nets::{RegularNet, cnet_vertices, fan_vertices};
 pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,

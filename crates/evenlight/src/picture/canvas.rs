@@ -1,15 +1,9 @@
 //! The finished picture: sRGB pixels, text on them, and the PNG file.
 
-use std::convert::Infallible;
 use std::io;
 
-use embedded_graphics::mono_font::{MonoFont, MonoTextStyle};
-use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use embedded_graphics::prelude::{Dimensions, DrawTarget, Drawable, OriginDimensions, Point, Size};
-use embedded_graphics::text::{Alignment, Baseline, Text, TextStyleBuilder};
-use embedded_graphics::{Pixel, primitives::Rectangle};
-
 use super::color::{Light, to_srgb};
+use super::font::{Alignment, Font};
 
 /// A picture of 8-bit sRGB pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,11 +16,10 @@ pub struct Picture {
 /// A line of text: what, where and how.
 pub(super) struct Label<'a> {
     pub text: &'a str,
-    /// The left end, the middle or the right end of the text, as `alignment` says, at half its
-    /// height.
+    /// The left end or the middle of the text, as `alignment` says, at half its height.
     pub at: [usize; 2],
     pub alignment: Alignment,
-    pub font: &'a MonoFont<'a>,
+    pub font: &'static Font,
     pub color: [u8; 3],
     /// The side of a font pixel in pixels.
     pub scale: usize,
@@ -94,59 +87,30 @@ impl Picture {
         }
     }
 
-    /// Writes `label`, as far as it is inside.
+    /// Writes `label`, as far as it is inside; a font pixel is a square of `scale` pixels, and only
+    /// whole ones are inside.
     pub(super) fn write(&mut self, label: &Label) {
-        let at = label.at.map(|x| (x / label.scale) as i32);
-        let [r, g, b] = label.color;
-        let style = MonoTextStyle::new(label.font, Rgb888::new(r, g, b));
-        let placed =
-            TextStyleBuilder::new().alignment(label.alignment).baseline(Baseline::Middle).build();
-        let text = Text::with_text_style(label.text, Point::new(at[0], at[1]), style, placed);
-        let Ok(_) = text.draw(&mut Magnifier { picture: self, scale: label.scale });
-    }
-}
-
-/// The picture as a target of `embedded-graphics` whose pixels are squares of `scale` pixels.
-struct Magnifier<'a> {
-    picture: &'a mut Picture,
-    scale: usize,
-}
-
-impl OriginDimensions for Magnifier<'_> {
-    fn size(&self) -> Size {
-        let [w, h] = [self.picture.width, self.picture.height].map(|n| (n / self.scale) as u32);
-        Size::new(w, h)
-    }
-}
-
-impl DrawTarget for Magnifier<'_> {
-    type Color = Rgb888;
-    type Error = Infallible;
-
-    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(
-        &mut self,
-        pixels: I,
-    ) -> Result<(), Infallible> {
-        let inside: Rectangle = self.bounding_box();
-        for Pixel(at, color) in pixels {
-            if inside.contains(at) {
-                let corner = [at.x as usize * self.scale, at.y as usize * self.scale];
-                let color = [color.r(), color.g(), color.b()];
-                self.picture.fill(corner, [self.scale; 2], color);
-            }
+        let Label { at, alignment, font, color, scale, .. } = *label;
+        let [x, y] = at.map(|x| x / scale);
+        let [columns, rows] = [self.width, self.height].map(|n| n / scale);
+        for (k, line) in label.text.lines().enumerate() {
+            font.draw(line, [x, y + k * font.height], alignment, |x, y| {
+                if x < columns && y < rows {
+                    self.fill([x * scale, y * scale], [scale; 2], color);
+                }
+            });
         }
-        Ok(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use embedded_graphics::mono_font::ascii::FONT_6X10;
+    use crate::picture::font::REGULAR;
 
     fn label(at: [usize; 2]) -> Label<'static> {
         let alignment = Alignment::Left;
-        Label { text: "K = 0", at, alignment, font: &FONT_6X10, color: [9, 8, 7], scale: 2 }
+        Label { text: "K = 0", at, alignment, font: &REGULAR, color: [9, 8, 7], scale: 2 }
     }
 
     #[test]
@@ -169,7 +133,7 @@ mod tests {
         let inked: Vec<_> =
             (0..4000).map(|i| (i % 100, i / 100)).filter(|&(x, y)| ink(x, y)).collect();
         assert!(!inked.is_empty());
-        assert!(inked.iter().all(|&(x, y)| (10..70).contains(&x) && (10..30).contains(&y)));
+        assert!(inked.iter().all(|&(x, y)| (10..80).contains(&x) && (8..34).contains(&y)));
     }
 
     #[test]

@@ -1,11 +1,8 @@
 //! The colour bar beside a picture of curvature.
 
-use embedded_graphics::mono_font::MonoFont;
-use embedded_graphics::mono_font::iso_8859_1::{FONT_7X13, FONT_7X13_BOLD};
-use embedded_graphics::text::Alignment;
-
 use super::canvas::{Label, Picture};
 use super::color::{diverging, to_srgb};
+use super::font::{Alignment, BOLD, Font, REGULAR};
 use super::{INK, Style};
 
 /// The width of the legend in font pixels: bar, tick marks, and numbers of up to 9 characters.
@@ -40,14 +37,14 @@ pub(super) fn draw(picture: &mut Picture, style: Style, range: f64, scale: usize
     let left = picture.width() - legend_width + scale * BAR_LEFT;
     let (top, bottom) = (picture.height() / 5, picture.height() - picture.height() / 6);
     bar(picture, left, [top, bottom], scale);
-    let mut write = |text: &str, x: usize, y: usize, font: &MonoFont| {
+    let mut write = |text: &str, x: usize, y: usize, font: &'static Font| {
         let alignment = Alignment::Left;
         picture.write(&Label { text, at: [x, y], alignment, font, color: INK, scale });
     };
-    write(title, left, top - scale * 20, &FONT_7X13_BOLD);
+    write(title, left, top - scale * 20, &BOLD);
     for (k, y) in ticks(top, bottom).into_iter().enumerate() {
         let value = range * (1.0 - 0.5 * k as f64);
-        write(&number(value, range), left + scale * (BAR_WIDTH + TICK + 5), y, &FONT_7X13);
+        write(&number(value, range), left + scale * (BAR_WIDTH + TICK + 5), y, &REGULAR);
     }
 }
 

@@ -26,6 +26,7 @@ mod camera;
 mod canvas;
 mod color;
 mod dice;
+mod font;
 mod graph;
 mod legend;
 mod panel;
@@ -36,15 +37,13 @@ pub use camera::View;
 pub use canvas::Picture;
 pub use graph::{GraphOptions, eigenfunctions};
 
-use embedded_graphics::mono_font::iso_8859_1::FONT_9X18_BOLD;
-use embedded_graphics::text::Alignment;
-
 use crate::Surface;
 use crate::names::names;
 use crate::task::{Cancelled, Steps};
 use camera::Camera;
 use canvas::Label;
 use color::{Light, from_srgb, mix};
+use font::{Alignment, LARGE_BOLD};
 use panel::{Panel, typical_range};
 
 /// The longest side of a picture in pixels.
@@ -252,12 +251,12 @@ fn annotate(
         picture.fill([left, top], [size[0], scale], SEPARATOR);
     }
     if !name.is_empty() {
-        let width = FONT_9X18_BOLD.character_size.width as usize * name.chars().count();
+        let width = LARGE_BOLD.width * name.chars().count();
         let corner = [left + 8 * scale, top + 8 * scale];
         picture.fill(corner, [(width + 12) * scale, 24 * scale], PLATE);
     }
     let mut write = |text: &str, at: [usize; 2], alignment: Alignment| {
-        picture.write(&Label { text, at, alignment, font: &FONT_9X18_BOLD, color: INK, scale });
+        picture.write(&Label { text, at, alignment, font: &LARGE_BOLD, color: INK, scale });
     };
     write(name, [left + 14 * scale, top + 20 * scale], Alignment::Left);
     if empty {

@@ -35,12 +35,14 @@
 //! are left out, and where two faces with a surface share nothing but a vertex, so do their
 //! triangles.
 
+mod arrays;
 mod corners;
 mod nodes;
 mod samples;
 mod sides;
 mod split;
 
+pub use arrays::TriangleArrays;
 pub use corners::{CornerChannels, CornerValues};
 pub use split::SplitVertices;
 
@@ -160,17 +162,34 @@ impl From<Cancelled> for TessellateError {
 /// If `rate` is 0, or if there would be 2^32 - 1 vertices or more. Running out of memory is
 /// not an error that is reported.
 pub fn tessellate(surface: &Surface, rate: usize) -> Result<TriangleMesh, TessellateError> {
+    let mut mesh = TriangleMesh::default();
+    tessellate_into(surface, rate, &mut mesh)?;
+    Ok(mesh)
+}
+
+/// [`tessellate`] into a mesh of the caller's, whose memory is used again: for every pose of an
+/// animation the same.
+///
+/// # Errors
+///
+/// As of [`tessellate`]; the mesh is as it was, but incomplete if the work was cancelled.
+pub fn tessellate_into(
+    surface: &Surface,
+    rate: usize,
+    mesh: &mut TriangleMesh,
+) -> Result<(), TessellateError> {
     let nodes =
         Nodes::number(surface.topology(), rate_used(surface, rate)?, |f| !surface.is_omitted(f))?;
     let sides = Sides::number(surface, &nodes)?;
-    let mut mesh = TriangleMesh { rate: nodes.rate(), ..TriangleMesh::default() };
-    mesh.side_vertices = sides.nodes().to_vec();
+    mesh.clear();
+    mesh.rate = nodes.rate();
+    mesh.side_vertices.extend_from_slice(sides.nodes());
     let places = places(surface, &nodes, &sides);
-    mesh.origins = places.iter().map(|place| place.origin()).collect();
+    mesh.origins.extend(places.iter().map(|place| place.origin()));
     mesh.evaluate(surface, &places)?;
     mesh.fill_what_is_missing(surface, &nodes, &sides);
     mesh.triangulate(surface, &nodes, &sides);
-    Ok(mesh)
+    Ok(())
 }
 
 /// The rate rounded up to what the n-gons need.
@@ -229,6 +248,20 @@ fn has_straight_angle(surface: &Surface, grid: Grid, (i, j): (usize, usize)) -> 
 }
 
 impl TriangleMesh {
+    /// Empties everything, but keeps the memory.
+    fn clear(&mut self) {
+        let Self { positions, normals, gauss, mean, origins, .. } = self;
+        positions.clear();
+        normals.clear();
+        gauss.clear();
+        mean.clear();
+        origins.clear();
+        self.side_vertices.clear();
+        self.triangles.clear();
+        self.corner_sides.clear();
+        self.quads.clear();
+    }
+
     /// Computes all sides, and vertices on their first, a slice at a time.
     fn evaluate(&mut self, surface: &Surface, places: &[NodePlace]) -> Result<(), Cancelled> {
         const SLICE: usize = 1 << 16;

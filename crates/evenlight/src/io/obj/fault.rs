@@ -230,6 +230,29 @@ pub enum Reason {
     },
 }
 
+impl Reason {
+    /// The kind of the fault: a word that stays the same when messages change.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::NotANumber { .. } => "not-a-number",
+            Self::TooFewCoordinates { .. } => "too-few-coordinates",
+            Self::Weight { .. } => "weight",
+            Self::OtherKind { .. } => "other-kind",
+            Self::NotACorner { .. } => "not-a-corner",
+            Self::IndexZero { .. } => "index-zero",
+            Self::IndexTooLarge { .. } => "index-too-large",
+            Self::IndexBeforeFirst { .. } => "index-before-first",
+            Self::NotFinite { .. } => "not-finite",
+            Self::TagForm { .. } => "tag-form",
+            Self::TagArguments { .. } => "tag-arguments",
+            Self::TagValue { .. } => "tag-value",
+            Self::TagIndex { .. } => "tag-index",
+            Self::HierarchicalEdit { .. } => "hierarchical-edit",
+            Self::TooMany { .. } => "too-many",
+        }
+    }
+}
+
 /// Collects the faults of a file: keeps the first few, counts the others.
 #[derive(Debug, Default)]
 pub(super) struct Faults {

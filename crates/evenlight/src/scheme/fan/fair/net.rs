@@ -4,7 +4,7 @@
 //!   line s+1
 //!   (0,3)  (1,3)  (2,3)  (3,3)      a net has the nodes up to 3 but for the centre; a ring of
 //!   (0,2)  (1,2)  (2,2)  (3,2)      2 x 2 patches per square is made of the refined nodes up to 5.
-//!   (0,1)  (1,1)  (2,1)  (3,1)      Those from 3 on follow by knot insertion; up to 2 they are free.
+//!   (0,1)  (1,1)  (2,1)  (3,1)      They follow from 3 on by knot insertion; the rest is free.
 //!     .    (1,0)  (2,0)  (3,0)  line s
 //! ```
 //!
