@@ -128,7 +128,11 @@ fn measured(file: &Path) -> Result<Vec<Row>, Box<dyn Error>> {
         let surface = build(&cage, scheme)?;
         for at in scales.iter().filter(|at| at.scale > 0.0) {
             let point = &surface.extraordinary_points()[at.point];
-            let around = Around { point, rings: surface.rings(at.point).unwrap(), scale: at.scale };
+            let around = Around {
+                point,
+                rings: surface.rings(at.point).expect("the point is one of the surface"),
+                scale: at.scale,
+            };
             let empty = Measures { least: f64::INFINITY, ..Measures::default() };
             let row = rows.entry(point.valence).or_insert_with(|| vec![empty; SCHEMES.len()]);
             around.add_to(&mut row[k]);
@@ -150,7 +154,9 @@ struct Around<'a> {
 
 impl Around<'_> {
     fn add_to(&self, sum: &mut Measures) {
-        for patch in (0..ENERGY_RINGS).flat_map(|ring| self.rings.patches(ring).unwrap()) {
+        for patch in (0..ENERGY_RINGS)
+            .flat_map(|ring| self.rings.patches(ring).expect("it is a place of the surface"))
+        {
             sum.mean_energy += shape_energy(&patch);
             sum.gauss_energy += gauss_energy(&patch);
         }
@@ -186,7 +192,7 @@ impl Around<'_> {
             let steps = (0..=RINGS * RAY_STEPS).map(|step| {
                 let part = (step % RAY_STEPS) as f64 / RAY_STEPS as f64;
                 let r = self.radius(step / RAY_STEPS, part);
-                self.rings.eval(s, r * a, r * b).unwrap().mean
+                self.rings.eval(s, r * a, r * b).expect("it is a place of the surface").mean
             });
             steps.filter(|mean| mean.is_finite()).collect()
         };
@@ -199,7 +205,7 @@ impl Around<'_> {
         let places = sectors.flat_map(|s| (0..=CURVE_STEPS).map(move |k| (s, k)));
         let points = places.map(|(s, k)| {
             let [a, b] = on_corner(k as f64 / CURVE_STEPS as f64);
-            let point = self.rings.eval(s, r * a, r * b).unwrap();
+            let point = self.rings.eval(s, r * a, r * b).expect("it is a place of the surface");
             (point.mean, point.gauss)
         });
         points.filter(|(mean, _)| mean.is_finite()).collect()
@@ -281,14 +287,14 @@ fn far_side(flat: &Mesh, corner: usize, scheme: SchemeKind) -> Result<f64, Box<d
 
 fn far_over_largest(surface: &Surface, from: [f64; 3], spike: [f64; 2]) -> f64 {
     let point = &surface.extraordinary_points()[0];
-    let rings = surface.rings(0).unwrap();
+    let rings = surface.rings(0).expect("the point is one of the surface");
     let (mut far, mut largest) = (0.0_f64, 0.0_f64);
     let sectors = point.sectors.iter().flat_map(|s| (0..64).map(move |step| (s.index, step)));
     for (sector, step) in sectors {
         let r = 0.5_f64.powf(f64::from(step) / 16.0);
         for k in 0..=CURVE_STEPS {
             let [a, b] = on_corner(k as f64 / CURVE_STEPS as f64);
-            let found = rings.eval(sector, r * a, r * b).unwrap();
+            let found = rings.eval(sector, r * a, r * b).expect("it is a place of the surface");
             let [x, y] = [0, 1].map(|d| found.jet.p[d] - from[d]);
             let angle = (spike[0] * y - spike[1] * x).atan2(spike[0] * x + spike[1] * y);
             largest = largest.max(found.mean.abs());

@@ -149,8 +149,8 @@ fn check(surface: &Surface, rings: usize, name: &str) -> [f64; 2] {
     [rest, caps]
 }
 
-/// V - E + F of the holes: of the sectors of points without their outer borders, and of the edges and
-/// vertices that no other patch has.
+/// V - E + F of the holes: of the sectors of points without their outer borders, and of the edges
+/// and vertices that no other patch has.
 fn holes(surface: &Surface) -> i64 {
     let topology = surface.topology();
     let mut sum = 0;
@@ -195,8 +195,9 @@ fn holes(surface: &Surface) -> i64 {
     sum
 }
 
-/// How far borders may be apart, as a part of the largest coordinate: a few units of rounding. A wrong pair
-/// would be off by the size of a patch, which is 1e-8 or more of the cage even in ring 20.
+/// How far borders may be apart, as a part of the largest coordinate: a few units of rounding. A
+/// wrong pair would be off by the size of a patch, which is 1e-8 or more of the cage even in ring
+/// 20.
 const SAME: f64 = 1e-13;
 
 fn check_all_depths(surface: &Surface, depths: &[usize], name: &str) {
@@ -251,8 +252,8 @@ fn complexes_of_all_schemes_are_surfaces_of_patches() {
     }
 }
 
-/// The point of a use at `t` along its edge: position, derivative along the edge and inwards, both by a
-/// coordinate of the edge's line that is 1 over the edge.
+/// The point of a use at `t` along its edge: position, derivative along the edge and inwards, both
+/// by a coordinate of the edge's line that is 1 over the edge.
 fn at_edge(
     surface: &Surface,
     complex: &PatchComplex,
@@ -283,8 +284,8 @@ fn at_edge(
     [p, scale(direction, along), scale(unit, inwards)]
 }
 
-/// Derivatives have full precision at any depth, unlike coordinates: what is compared here is compared
-/// with the size of the patches themselves.
+/// Derivatives have full precision at any depth, unlike coordinates: what is compared here is
+/// compared with the size of the patches themselves.
 #[test]
 fn patches_go_on_across_their_edges_in_one_parametrisation() {
     let cages = all_cages().into_iter().step_by(5).chain(feature_cages());

@@ -1,6 +1,7 @@
 //! Random cages, closed and flat, with n-gons, boundaries, creases, corners and holes: whatever
 //! passes the checks gives a surface in every scheme, and the surface is C2 where it should be,
 //! without cracks, flat if the cage is, and its triangles are watertight.
+#![allow(clippy::unwrap_used, reason = "a test that finds no surface fails")]
 
 mod common;
 
@@ -160,7 +161,7 @@ fn check(cage: &Arc<Cage>, seed: u64, schemes: &[SchemeKind]) {
             assert_eq!(found.is_none(), surface.is_omitted(surface.face_of(quad).unwrap().0));
             assert!(found.is_none_or(|p| p.jet.p.iter().all(|x| x.is_finite())), "seed {seed}");
         }
-        let found = continuity(&surface, 2, 1).unwrap();
+        let found = continuity(&surface, 2, 1).expect("there are few patches");
         let jumps = found.all;
         assert!(jumps.parametric < 1e-9, "seed {seed}, {}: {jumps:?}", scheme.name());
         assert!(found.creases.defect.position < 1e-12, "seed {seed}: {:?}", found.creases);

@@ -63,8 +63,8 @@ pub struct Continuity {
 /// Samples `samples` points inside every side of every patch of the surface with `rings` rings.
 ///
 /// The inner border of the last ring is compared with the ring behind it. Caps, which join in other
-/// parameters, are left out: [`cap_report`](super::caps::cap_report) measures them. Of more rings than a
-/// [`PatchComplex`] can have, so many are measured.
+/// parameters, are left out: [`cap_report`](super::caps::cap_report) measures them. Of more rings
+/// than a [`PatchComplex`] can have, so many are measured.
 ///
 /// # Errors
 ///
@@ -115,8 +115,8 @@ struct Around<'a> {
     complex: &'a PatchComplex,
 }
 
-/// A point inside a side of a patch, in the parameters of its quad, what the patch says there, and what
-/// it covers of u and v.
+/// A point inside a side of a patch, in the parameters of its quad, what the patch says there, and
+/// what it covers of u and v.
 struct Here<'a> {
     patch: PatchId,
     place: &'a PatchPlace,

@@ -3,15 +3,16 @@
 use crate::patch::SurfacePoint;
 use crate::point::{cross, dot, norm, sub};
 
-/// The largest jumps of position (G0), tangent plane (G1) and curvature (G2) over some points of borders.
+/// The largest jumps of position (G0), tangent plane (G1) and curvature (G2) over some points of
+/// borders.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Defect {
     /// Of position, in the units of the cage.
     pub position: f64,
     /// Of the tangent plane: the angle between the normals, in radians.
     pub tangent_plane: f64,
-    /// Of curvature: the larger difference of the principal curvatures, in 1/unit or as whoever measures
-    /// it says.
+    /// Of curvature: the larger difference of the principal curvatures, in 1/unit or as whoever
+    /// measures it says.
     pub curvature: f64,
 }
 

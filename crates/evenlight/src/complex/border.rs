@@ -96,9 +96,9 @@ fn mix<const N: usize>(a: [f64; N], b: [f64; N], t: f64) -> [f64; N] {
 }
 
 impl PatchComplex {
-    /// The curve of an edge, from its first to its second vertex: the border of its first use, which
-    /// stands for all. `None` if there is no such edge, or if the surface has another layout or no such
-    /// caps.
+    /// The curve of an edge, from its first to its second vertex: the border of its first use,
+    /// which stands for all. `None` if there is no such edge, or if the surface has another layout
+    /// or no such caps.
     pub fn border<const N: usize>(
         &self,
         surface: &Surface<N>,
@@ -107,8 +107,8 @@ impl PatchComplex {
         self.border_of_use(surface, edge, 0)
     }
 
-    /// The curve of an edge from its use number `which`, for whoever wants to see that all uses have
-    /// one: in exact arithmetic they are the same polynomial, up to its degree.
+    /// The curve of an edge from its use number `which`, for whoever wants to see that all uses
+    /// have one: in exact arithmetic they are the same polynomial, up to its degree.
     pub fn border_of_use<const N: usize>(
         &self,
         surface: &Surface<N>,

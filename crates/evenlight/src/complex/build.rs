@@ -15,18 +15,18 @@ use crate::mesh::HalfEdgeId;
 use crate::surface::{CapPlan, Layout, PatchPlace, QuadId, Surface};
 
 impl PatchComplex {
-    /// The complex of all regular patches and of `rings` rings around every extraordinary point, for all
-    /// surfaces over a layout; of surfaces that are closed by caps no more rings than they have, and if it
-    /// is all of them the caps.
+    /// The complex of all regular patches and of `rings` rings around every extraordinary point,
+    /// for all surfaces over a layout; of surfaces that are closed by caps no more rings than they
+    /// have, and if it is all of them the caps.
     ///
     /// Takes time n log n in the number of patches, and memory as they do.
     ///
     /// # Errors
     ///
-    /// [`ComplexError::TooDeep`] if rings are more than 100, or if they contract so fast that positions in
-    /// the last of them are not told apart (more than about 30 of those that contract fastest).
-    /// [`ComplexError::Cap`] if there are no such caps. [`ComplexError::TooMany`] if there are 2^31 edges
-    /// or more.
+    /// [`ComplexError::TooDeep`] if rings are more than 100, or if they contract so fast that
+    /// positions in the last of them are not told apart (more than about 30 of those that contract
+    /// fastest). [`ComplexError::Cap`] if there are no such caps. [`ComplexError::TooMany`] if
+    /// there are 2^31 edges or more.
     pub fn new(
         layout: &Arc<Layout>,
         rings: usize,

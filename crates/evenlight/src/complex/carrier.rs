@@ -8,8 +8,8 @@
 //!    +-----------+
 //! ```
 //!
-//! Two patches are neighbours if and only if their sides have a carrier and an interval of it in common.
-//! Carriers are known by the connectivity of the cage, whatever the positions.
+//! Two patches are neighbours if and only if their sides have a carrier and an interval of it in
+//! common. Carriers are known by the connectivity of the cage, whatever the positions.
 
 use super::exact::{Exact, ONE, Rectangle};
 use crate::mesh::{FaceId, HalfEdgeId, Topology, VertexId};
@@ -21,7 +21,8 @@ pub(super) enum Carrier {
     CageEdge(HalfEdgeId),
     /// The line between quads `k` and `k + 1` of an n-gon, [`ONE`] long.
     FaceLine(FaceId, u32),
-    /// The line inside a quad on which parameter 0 (u) or 1 (v) has a value; the other runs along it.
+    /// The line inside a quad on which parameter 0 (u) or 1 (v) has a value; the other runs along
+    /// it.
     Inside(u32, u8, Exact),
 }
 
@@ -77,8 +78,8 @@ impl QuadOfFace<'_> {
         Carrier::Inside(self.quad, if side.is_multiple_of(2) { 1 } else { 0 }, at)
     }
 
-    /// The carrier of side `side` of the quad, an interval of u or v as one of the carrier, and whether
-    /// the side, counter-clockwise, runs along the carrier.
+    /// The carrier of side `side` of the quad, an interval of u or v as one of the carrier, and
+    /// whether the side, counter-clockwise, runs along the carrier.
     fn on_border(self, side: u8, interval: [Exact; 2]) -> (Carrier, [Exact; 2], bool) {
         let (n, k) = (self.topology.faces().corners(self.face).len(), self.corner);
         let before = (k + n - 1) % n;

@@ -1,8 +1,8 @@
 //! Exact positions: whole numbers, so that places that are one have one number and others have not.
 //!
-//! A parametric quad is [`ONE`] = 3 2^120 wide. Everything that is cut in halves and thirds has whole
-//! coordinates then: the squares of isolation (2^-12 and larger), the patches of a ring (1/2, 1/4 or
-//! 1/6 of it), the pieces of a cap (up to 4), and a hundred rings.
+//! A parametric quad is [`ONE`] = 3 2^120 wide. Everything that is cut in halves and thirds has
+//! whole coordinates then: the squares of isolation (2^-12 and larger), the patches of a ring (1/2,
+//! 1/4 or 1/6 of it), the pieces of a cap (up to 4), and a hundred rings.
 //!
 //! Rings that do not halve have lines at irrational places ([`Cuts`]). Their places are rounded, by
 //! always the same steps, and lines that are one by construction are computed once:
@@ -36,8 +36,8 @@ pub(super) const MAX_RINGS: usize = 100;
 /// they stay whole when they are scaled down to a square of any level.
 const ZEROS: u32 = 24;
 
-/// Holes smaller than this, 2^-80 of the sector, have no rounded places: lines are at least .03 of a
-/// hole apart, and so far above rounding.
+/// Holes smaller than this, 2^-80 of the sector, have no rounded places: lines are at least .03 of
+/// a hole apart, and so far above rounding.
 const SMALLEST_HOLE: f64 = 1.0 / (1_u128 << 80) as f64;
 
 /// The largest coordinate that is not beyond `x`, 0 <= x <= 1.
@@ -80,7 +80,8 @@ impl ExactSquare {
         ONE >> self.level
     }
 
-    /// The rectangle that the part `[[a0, a1], [b0, b1]]` of a sector is, whose point is at `corner`.
+    /// The rectangle that the part `[[a0, a1], [b0, b1]]` of a sector is, whose point is at
+    /// `corner`.
     pub(super) fn of_sector(self, corner: u8, [a, b]: Rectangle) -> Rectangle {
         let size = self.size();
         let turned = |[from, to]: [Exact; 2]| [size - to, size - from];

@@ -1,21 +1,21 @@
-//! The patches of a surface as one complex: patches, the edges where two of them meet, and the vertices
-//! where edges end.
+//! The patches of a surface as one complex: patches, the edges where two of them meet, and the
+//! vertices where edges end.
 //!
 //! ```text
-//!   +-------+-------+-------+        Around an extraordinary point e the patches of ring k+1 are half
-//!   |       |       |       |        as wide as those of ring k, so that sides meet several others (T).
-//!   |       |  A    |   B   |        They are cut there: the lower side of patch A is two *uses* of two
-//!   |       |       |       |        edges. An edge has
-//!   +-------T-+-+---+-------+
-//!   |       |C|D|   |       |          two uses    where two patches meet, one polynomial for both;
-//!   |       +-+-+   |       |          one use     at the boundary of the surface, beside faces without
-//!   |       |.|     |       |                      a surface, and at the rim of a hole (.), which is
-//!   +-------e-+-----+-------+                      there without caps.
+//!   +-------+-------+-------+   Around an extraordinary point e the patches of ring k+1
+//!   |       |       |       |   are half as wide as those of ring k, so that a side may
+//!   |       |   A   |       |   meet several others (T). It is cut there: the lower side
+//!   |       |       |       |   of patch A is two *uses* of two edges. An edge has
+//!   |       +---T---+-------+
+//!   |       | C | D |       |   two uses  where two patches meet: one polynomial for both;
+//!   |       +---+---+       |   one use   at the boundary of the surface, beside faces
+//!   |       | . | E |       |             without a surface, and at the rim of a hole (.),
+//!   +-------e---+---+-------+             which is there without caps.
 //! ```
 //!
-//! The complex is made from the connectivity of the cage and from the rules of its points, with whole
-//! numbers (module `exact`): no two places are taken for one because they are near each other, at any
-//! depth of the rings, whatever the positions are.
+//! The complex is made from the connectivity of the cage and from the rules of its points, with
+//! whole numbers (module `exact`): no two places are taken for one because they are near each
+//! other, at any depth of the rings, whatever the positions are.
 //!
 //! ```
 //! use evenlight::complex::{EdgeKind, PatchComplex};
@@ -66,8 +66,8 @@ pub struct PatchId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PatchEdgeId(pub u32);
 
-/// The number of a vertex at which patches meet: first those at vertices of the cage, then centres of
-/// n-gons, then those on edges of the cage, on lines of n-gons, and inside parametric quads.
+/// The number of a vertex at which patches meet: first those at vertices of the cage, then centres
+/// of n-gons, then those on edges of the cage, on lines of n-gons, and inside parametric quads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PatchVertexId(pub u32);
 
@@ -95,8 +95,8 @@ impl PatchVertexId {
 /// How the surface goes on across an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum EdgeKind {
-    /// Two patches in one parametrisation: C2 but at caps, whose joints are those of [`cap`](crate::cap).
-    /// Semi-sharp edges of the cage are smooth.
+    /// Two patches in one parametrisation: C2 but at caps, whose joints are those of
+    /// [`cap`](crate::cap). Semi-sharp edges of the cage are smooth.
     Smooth,
     /// Two patches that may form an angle, on an infinitely sharp edge of the cage.
     Sharp,
@@ -111,7 +111,8 @@ pub enum EdgeKind {
 pub enum EdgePlace {
     /// On an edge of the cage, from 0 at the origin of the lower half-edge to 1.
     CageEdge(HalfEdgeId),
-    /// Between the quads `corner` and `corner + 1` of an n-gon, from 0 on the edge to 1 at the centre.
+    /// Between the quads `corner` and `corner + 1` of an n-gon, from 0 on the edge to 1 at the
+    /// centre.
     FaceLine {
         /// The n-gon.
         face: FaceId,
@@ -175,8 +176,8 @@ pub struct EdgeUse {
     pub side: u8,
     /// The part of the side, from lower to higher parameter.
     pub interval: [f64; 2],
-    /// Whether the side runs from the first vertex of the edge to the second. That of the first use does,
-    /// and that of a second does not.
+    /// Whether the side runs from the first vertex of the edge to the second. That of the first use
+    /// does, and that of a second does not.
     pub is_forward: bool,
 }
 
@@ -246,8 +247,8 @@ pub enum ComplexError {
     TooMany,
 }
 
-/// All patches of a surface to some depth, and the edges and vertices where they meet: the same for all
-/// surfaces over one layout.
+/// All patches of a surface to some depth, and the edges and vertices where they meet: the same for
+/// all surfaces over one layout.
 #[derive(Clone, Debug)]
 pub struct PatchComplex {
     layout: Arc<Layout>,
@@ -299,7 +300,8 @@ impl PatchComplex {
         self.vertices.len()
     }
 
-    /// All patches: what each is part of (face, extraordinary point, ring, sector) and where it lies.
+    /// All patches: what each is part of (face, extraordinary point, ring, sector) and where it
+    /// lies.
     pub fn patches(&self) -> impl ExactSizeIterator<Item = (PatchId, &PatchPlace)> {
         self.places.iter().enumerate().map(|(k, place)| (PatchId(k as u32), place))
     }
@@ -329,14 +331,16 @@ impl PatchComplex {
         self.vertices.get(vertex.index()).copied()
     }
 
-    /// The edges of side `side` (0 to 3) of a patch, counter-clockwise; none if there is no such side.
+    /// The edges of side `side` (0 to 3) of a patch, counter-clockwise; none if there is no such
+    /// side.
     pub fn edges_of_side(&self, patch: PatchId, side: u8) -> &[PatchEdgeId] {
         let k = 4 * patch.index() + usize::from(side.min(3));
         let exists = side < 4 && patch.index() < self.places.len();
         if exists { self.edges_of_sides.get(k..k + 1) } else { &[] }
     }
 
-    /// The edges around a patch, counter-clockwise from its corner (0,0); none if there is no such patch.
+    /// The edges around a patch, counter-clockwise from its corner (0,0); none if there is no such
+    /// patch.
     pub fn edges_of_patch(&self, patch: PatchId) -> &[PatchEdgeId] {
         let exists = patch.index() < self.places.len();
         if exists { self.edges_of_sides.get(4 * patch.index()..4 * patch.index() + 4) } else { &[] }
@@ -348,16 +352,17 @@ impl PatchComplex {
         if exists { self.edges_of_vertices.get(vertex.index()..vertex.index() + 1) } else { &[] }
     }
 
-    /// The patches across the edges of a patch, counter-clockwise; one that shares several edges with it
-    /// comes as many times.
+    /// The patches across the edges of a patch, counter-clockwise; one that shares several edges
+    /// with it comes as many times.
     pub fn neighbours(&self, patch: PatchId) -> impl Iterator<Item = PatchId> + '_ {
         let edges = self.edges_of_patch(patch).iter();
         edges.filter_map(move |edge| self.edges[edge.index()].across(patch))
     }
 
-    /// The patch at (u,v) of `quad`, which are clamped to 0..1; on a border between patches of one quad the
-    /// one that [`Surface::eval_as`](crate::Surface::eval_as) asks. `None` if there is no surface, no such
-    /// quad, in a hole behind rings without a cap, on its rim, and if a parameter is NaN.
+    /// The patch at (u,v) of `quad`, which are clamped to 0..1; on a border between patches of one
+    /// quad the one that [`Surface::eval_as`](crate::Surface::eval_as) asks. `None` if there is no
+    /// surface, no such quad, in a hole behind rings without a cap, on its rim, and if a parameter
+    /// is NaN.
     pub fn locate(&self, quad: QuadId, u: f64, v: f64) -> Option<PatchId> {
         let place = self.layout.place_at(quad, [u, v], self.caps.as_deref())?;
         self.numbers.number(&place).map(PatchId)

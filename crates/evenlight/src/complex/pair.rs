@@ -10,8 +10,8 @@
 use super::carrier::{Carrier, Side};
 use super::exact::Exact;
 
-/// An interval of a carrier, no end of a side being inside it, and the sides that have it: the one that
-/// runs along the carrier and the one that runs against it, as numbers of sides.
+/// An interval of a carrier, no end of a side being inside it, and the sides that have it: the one
+/// that runs along the carrier and the one that runs against it, as numbers of sides.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) carrier: Carrier,

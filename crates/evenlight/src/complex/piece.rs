@@ -4,7 +4,8 @@ use super::exact::{ExactSquare, Lines, Rectangle};
 use crate::scheme::Rules;
 use crate::surface::{PatchPlace, RingPatch, Role, Source};
 
-/// The patches of a complex by what they are made of. Those of one sector follow each other, ring by ring.
+/// The patches of a complex by what they are made of. Those of one sector follow each other, ring
+/// by ring.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Numbers {
     /// The rings around each point, in front of a cap or not.

@@ -38,9 +38,9 @@ impl Layout {
 }
 
 impl Layout {
-    /// The patch that evaluation asks at (u,v) of a quad, which are clamped to 0..1, of rings without end
-    /// or in front of caps. `None` if there is no surface, no such quad, at a point without a cap, and if
-    /// a parameter is NaN.
+    /// The patch that evaluation asks at (u,v) of a quad, which are clamped to 0..1, of rings
+    /// without end or in front of caps. `None` if there is no surface, no such quad, at a point
+    /// without a cap, and if a parameter is NaN.
     pub(crate) fn place_at(
         &self,
         quad: QuadId,
@@ -195,9 +195,9 @@ impl<const N: usize> Surface<N> {
         self.layout.places(rings, self.cap_plan().map(|plan| &**plan))
     }
 
-    /// Where the patch lies that evaluation asks at (u,v) of `quad`, which are clamped to 0..1: in which
-    /// ring however deep, or in the cap. `None` if there is no surface, no such quad, at an extraordinary
-    /// point without a cap, and if a parameter is NaN.
+    /// Where the patch lies that evaluation asks at (u,v) of `quad`, which are clamped to 0..1: in
+    /// which ring however deep, or in the cap. `None` if there is no surface, no such quad, at an
+    /// extraordinary point without a cap, and if a parameter is NaN.
     pub fn place_at(&self, quad: QuadId, u: f64, v: f64) -> Option<PatchPlace> {
         self.layout.place_at(quad, [u, v], self.cap_plan().map(|plan| &**plan))
     }
@@ -209,8 +209,8 @@ impl<const N: usize> Surface<N> {
 
     /// What a patch says at (u,v) of its quad, on its borders too: [`Surface::eval_as`] chooses the
     /// patch by itself. Derivatives are in the quad's parameters and, unlike those of the
-    /// polynomial in world coordinates, exact to rounding at any depth. `None` if the place is not one
-    /// of this surface.
+    /// polynomial in world coordinates, exact to rounding at any depth. `None` if the place is not
+    /// one of this surface.
     pub fn eval_on_as<A: Answer<N>>(&self, place: &PatchPlace, u: f64, v: f64) -> Option<A> {
         self.has(place).then(|| self.answer_on(place, [u, v]))
     }
