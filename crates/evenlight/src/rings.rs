@@ -440,12 +440,7 @@ impl<const N: usize> Rings<N> {
 
     /// The scale and the coefficients of a patch of a ring that is not kept.
     #[cold]
-    fn deep_coefs(
-        &self,
-        ring: usize,
-        s: usize,
-        which: usize,
-    ) -> (RingScale<N>, Vec<[f64; N]>) {
+    fn deep_coefs(&self, ring: usize, s: usize, which: usize) -> (RingScale<N>, Vec<[f64; N]>) {
         self.with_ring(ring, |net, r| (r.scale, self.coefs(net, r, s, which)))
     }
 

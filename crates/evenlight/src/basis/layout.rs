@@ -32,6 +32,8 @@
 //! The outer border of a ring, its three outer layers, has the functions of the level before:
 //! those of level 0 are the border of the whole.
 
+use crate::pairs::pairs;
+
 /// Weights of functions, numbered by [`Layout::slot`].
 pub(super) type Combination = Vec<(usize, f64)>;
 
@@ -170,7 +172,7 @@ impl Layout {
     /// Products of weights along u and v at a corner; at that on the next line, where the corner's
     /// own first direction is v and its second one -u, in its names.
     fn product(self, corner: Corner, u: [f64; 3], v: [f64; 3]) -> Combination {
-        let pairs = (0..3).flat_map(|p| (0..3).map(move |q| (p, q)));
+        let pairs = pairs(3, 3);
         let slot = |p, q| match corner {
             Corner::Line => self.slot(Place::OnLine { p, q }),
             Corner::Diagonal => self.slot(Place::OnDiagonal { p, q }),
@@ -251,7 +253,7 @@ impl Layout {
         let h = self.inner();
         let (line, sigma) = (self.on_line, self.at_sigma);
         let both = |square: usize, u: [f64; 3], v: [f64; 3]| {
-            let pairs = (0..3).flat_map(|i| (0..3).map(move |j| [i, j]));
+            let pairs = pairs(3, 3).map(|(i, j)| [i, j]);
             sparse(pairs.map(|[i, j]| ((square, [i, j]), u[i] * v[j])))
         };
         let along_u = |square: usize, u: [f64; 3], m: usize| {
@@ -261,13 +263,13 @@ impl Layout {
             sparse((0..3).map(|j| ((square, [LAYERS + m, j]), v[j])))
         };
         let mut all = vec![Vec::new(); self.slots()];
-        for (p, q) in (0..3).flat_map(|p| (0..3).map(move |q| (p, q))) {
+        for (p, q) in pairs(3, 3) {
             all[self.slot(Place::OnLine { p, q })] =
                 both(AHEAD, sigma.of_right(p), line.of_right(q));
             all[self.slot(Place::OnDiagonal { p, q })] =
                 both(DIAGONAL, sigma.of_right(p), sigma.of_right(q));
         }
-        for (p, m) in (0..3).flat_map(|p| (0..h).map(move |m| (p, m))) {
+        for (p, m) in pairs(3, h) {
             all[self.slot(Place::EdgeU { p, m })] = along_u(AHEAD, sigma.of_right(p), m);
             all[self.slot(Place::EdgeV { m, q: p })] = along_v(BEHIND, m, sigma.of_right(p));
             all[self.slot(Place::Line { m, q: p })] = along_v(AHEAD, m, line.of_right(p));
@@ -290,7 +292,7 @@ impl Layout {
     pub(super) fn functions_from_border(self) -> Vec<Vec<([usize; 3], f64)>> {
         let last = self.degree + 1 - LAYERS;
         let corner = |first: usize, across: [f64; 3], along: [f64; 3]| {
-            let pairs = (0..3).flat_map(|layer| (0..3).map(move |k| (layer, k)));
+            let pairs = pairs(3, 3);
             sparse(pairs.map(|(layer, k)| ([0, layer, first + k], across[layer] * along[k])))
         };
         let edge = |edge: usize, m: usize, across: [f64; 3]| {
@@ -298,13 +300,13 @@ impl Layout {
         };
         let sigma = self.at_sigma;
         let mut all = vec![Vec::new(); self.of_level()];
-        for (p, q) in (0..3).flat_map(|p| (0..3).map(move |q| (p, q))) {
+        for (p, q) in pairs(3, 3) {
             all[self.slot(Place::OnLine { p, q })] =
                 corner(0, sigma.of_right(p), self.on_line.of_right(q));
             all[self.slot(Place::OnDiagonal { p, q })] =
                 corner(last, sigma.of_right(p), sigma.of_left(q));
         }
-        for (p, m) in (0..3).flat_map(|p| (0..self.inner()).map(move |m| (p, m))) {
+        for (p, m) in pairs(3, self.inner()) {
             all[self.slot(Place::EdgeU { p, m })] = edge(0, m, sigma.of_right(p));
             all[self.slot(Place::EdgeV { m, q: p })] = edge(1, m, sigma.of_right(p));
         }

@@ -42,6 +42,7 @@ use super::border::Border;
 use super::spline::{Space, raising};
 use super::{CapKind, MAX_VALENCE, domains};
 use crate::angle::{cosine, sine};
+use crate::pairs::pairs;
 use crate::patch::Patch;
 use crate::point::{add, add_scaled, scale, sub};
 use crate::rings::{Rings, ValenceRules};
@@ -361,7 +362,7 @@ fn bicubic<const N: usize>(outside: &[[f64; N]], [first, last]: [[f64; N]; 2]) -
         p
     };
     let mut net = [[0.0; N]; 16];
-    for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+    for (i, j) in pairs(4, 4) {
         net[4 * i + j] = match (i >= 2, j >= 2) {
             (true, true) => scale(0.5, add(edge(0, 3 - i, j), edge(1, 3 - j, i))),
             (true, false) => edge(0, 3 - i, j),

@@ -84,7 +84,8 @@ impl<const N: usize> Surface<N> {
             }
             Piece::Sector { point, sector, corner } => {
                 let change = |jet: &Jet<N>| from_sector(corner, jet).scaled_parameters(zoom);
-                let put = &mut |i: usize, j: usize, found: A| put(i, j, found.in_parameters(change));
+                let put =
+                    &mut |i: usize, j: usize, found: A| put(i, j, found.in_parameters(change));
                 self.eval_sector(point as usize, sector as usize, corner, [us, vs], put);
             }
             Piece::Split(first) => {
