@@ -42,7 +42,8 @@ pub fn circles(files: &[(String, String)]) -> Vec<String> {
         }
     }
     let circles = arrows.iter().flat_map(|(parent, arrows)| {
-        let name = |child: &String| [parent.as_slice(), &[child.clone()]].concat().join("::");
+        let name =
+            |child: &String| [parent.as_slice(), std::slice::from_ref(child)].concat().join("::");
         strong_components(arrows).into_iter().map(move |circle| {
             let names: Vec<String> = circle.iter().map(name).collect();
             format!("{} use each other in a circle", names.join(", "))
@@ -183,7 +184,7 @@ fn resolved(
         _ => {}
     }
     while let Some(word) = words.next() {
-        let child = [at.as_slice(), &[word.clone()]].concat();
+        let child = [at.as_slice(), std::slice::from_ref(word)].concat();
         if modules.contains_key(&child) {
             at = child;
             continue;

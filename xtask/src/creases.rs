@@ -201,7 +201,8 @@ fn rings(mesh: &Mesh, creases: CreaseRings) -> Result<[Ring; RINGS], Box<dyn Err
     for place in surface.patch_places(RINGS).filter(|place| place.point == Some(point)) {
         let Role::Ring(number) = place.role else { continue };
         let ring = &mut rings[number];
-        ring.energy += shape_energy(&surface.patch(&place).unwrap());
+        ring.energy +=
+            shape_energy(&surface.patch(&place).expect("the point is one of the surface"));
         ring.mean = ring.mean.union(curvature_over(&surface, &place).mean);
     }
     Ok(rings)
@@ -217,7 +218,7 @@ fn jacobian(f: usize) -> Result<[f64; 2], Box<dyn Error>> {
     let (surface, point) = build(&half_disc(f, &flat), CreaseRings::Fair)?;
     let middle = |k: usize| (k as f64 + 0.5) / GRID as f64;
     let mut values = Vec::new();
-    for patch in surface.rings(point).unwrap().patches(RING) {
+    for patch in surface.rings(point).expect("the point is one of the surface").patches(RING) {
         let jets = (0..GRID * GRID).map(|k| patch.jet(middle(k / GRID), middle(k % GRID)));
         values.extend(jets.map(|jet| norm(cross(jet.du, jet.dv))));
     }

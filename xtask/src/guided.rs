@@ -77,7 +77,10 @@ fn range_table() -> Result<String, Box<dyn Error>> {
             let surface = build(&cage, scheme, contraction)?;
             let lengths = range_lengths(&surface);
             let cells = lengths.map(short).join(" | ");
-            let (lambda, ratio) = (surface.rings(0).unwrap().lambda(), lengths[5] / lengths[4]);
+            let (lambda, ratio) = (
+                surface.rings(0).expect("the point is one of the surface").lambda(),
+                lengths[5] / lengths[4],
+            );
             writeln!(out, "| {n} | {name} | {lambda:.3} | {cells} | {ratio:.3} |")?;
         }
     }

@@ -128,7 +128,11 @@ fn measured(file: &Path) -> Result<Vec<Row>, Box<dyn Error>> {
         let surface = build(&cage, scheme)?;
         for at in scales.iter().filter(|at| at.scale > 0.0) {
             let point = &surface.extraordinary_points()[at.point];
-            let around = Around { point, rings: surface.rings(at.point).unwrap(), scale: at.scale };
+            let around = Around {
+                point,
+                rings: surface.rings(at.point).expect("the point is one of the surface"),
+                scale: at.scale,
+            };
             let empty = Measures { least: f64::INFINITY, ..Measures::default() };
             let row = rows.entry(point.valence).or_insert_with(|| vec![empty; SCHEMES.len()]);
             around.add_to(&mut row[k]);
@@ -281,7 +285,7 @@ fn far_side(flat: &Mesh, corner: usize, scheme: SchemeKind) -> Result<f64, Box<d
 
 fn far_over_largest(surface: &Surface, from: [f64; 3], spike: [f64; 2]) -> f64 {
     let point = &surface.extraordinary_points()[0];
-    let rings = surface.rings(0).unwrap();
+    let rings = surface.rings(0).expect("the point is one of the surface");
     let (mut far, mut largest) = (0.0_f64, 0.0_f64);
     let sectors = point.sectors.iter().flat_map(|s| (0..64).map(move |step| (s.index, step)));
     for (sector, step) in sectors {

@@ -1,8 +1,8 @@
 //! The chapters of the documentation: what the rules are, where they come from, how good they are.
 //!
 //! They are the files `docs/*.md` of the crate. Pictures are in the repository only, beside the
-//! chapters; their descriptions stand in their places here. Chapters cite as `[Key, eq. 12]`, with the
-//! keys of `docs/refs.bib`.
+//! chapters; their descriptions stand in their places here. Chapters cite as `[Key, eq. 12]`, with
+//! the keys of `docs/refs.bib`.
 #![allow(rustdoc::broken_intra_doc_links, reason = "citations stand in brackets")]
 
 /// A chapter as a module: its name, its file, and the links that differ from those of the file.

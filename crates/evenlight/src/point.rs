@@ -78,9 +78,8 @@ pub fn unit(a: Vector) -> Vector {
 #[inline]
 pub(crate) fn in_space<const N: usize>(a: [f64; N]) -> Vector {
     let mut r = [0.0; 3];
-    for k in 0..N.min(3) {
-        r[k] = a[k];
-    }
+    let count = N.min(3);
+    r[..count].copy_from_slice(&a[..count]);
     r
 }
 

@@ -172,12 +172,15 @@ struct Frame<const N: usize> {
 /// The number of the coordinate that is the height over the tangent plane.
 const HEIGHT: usize = 2;
 
+/// The BB coefficients of patches, one after the other.
+type Coefs<const N: usize> = Box<[[f64; N]]>;
+
 /// One ring in frame coordinates, scaled as the module says.
 #[derive(Debug)]
 struct Ring<const N: usize> {
     /// The BB coefficients of the patches of each sector, made when it is first evaluated: they
     /// take most of the memory.
-    sectors: Box<[OnceLock<Box<[[f64; N]]>>]>,
+    sectors: Box<[OnceLock<Coefs<N>>]>,
     /// The net in front of the next ring, in its own scale.
     next: Vec<[f64; N]>,
     scale: RingScale<N>,
@@ -204,8 +207,8 @@ impl<const N: usize> RingScale<N> {
         let mut world = [0.0; N];
         for (k, x) in world.iter_mut().enumerate() {
             let mut sum = r[0] * self.axes[0][k];
-            for i in 1..N {
-                sum += r[i] * self.axes[i][k];
+            for (y, axis) in r.iter().zip(&self.axes).skip(1) {
+                sum += y * axis[k];
             }
             *x = factor * sum;
         }
@@ -447,7 +450,7 @@ impl<const N: usize> Rings<N> {
             return self.with_ring(ring, |net, r| f(&r.scale, &self.coefs(net, r, s, which)));
         }
         let r = self.cached_ring(ring);
-        let all = || -> Box<[[f64; N]]> {
+        let all = || -> Coefs<N> {
             let net = self.net_in_front(ring);
             (0..self.patches_per_sector()).flat_map(|k| self.coefs(net, r, s, k)).collect()
         };
@@ -674,8 +677,8 @@ impl<const N: usize> Frame<N> {
     /// F r, without any factor.
     fn world(&self, r: [f64; N]) -> [f64; N] {
         let mut p = scale(r[0], self.axes[0]);
-        for k in 1..N {
-            add_scaled(&mut p, r[k], self.axes[k]);
+        for (&x, &axis) in r.iter().zip(&self.axes).skip(1) {
+            add_scaled(&mut p, x, axis);
         }
         p
     }
@@ -683,8 +686,8 @@ impl<const N: usize> Frame<N> {
     /// A direction of the first three coordinates.
     fn direction(&self, r: Vector) -> Vector {
         let mut p = scale(r[0], in_space(self.axes[0]));
-        for k in 1..N.min(3) {
-            add_scaled(&mut p, r[k], in_space(self.axes[k]));
+        for (&x, &axis) in r.iter().zip(&self.axes).skip(1) {
+            add_scaled(&mut p, x, in_space(axis));
         }
         p
     }

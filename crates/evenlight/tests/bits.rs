@@ -1,13 +1,13 @@
-//! Surfaces have the same bits on every machine: hashes of values, derivatives and curvatures of all
-//! schemes, `data/golden/bits.txt`, which was written on x86-64.
+//! Surfaces have the same bits on every machine: hashes of values, derivatives and curvatures of
+//! all schemes, `data/golden/bits.txt`, which was written on x86-64.
 //!
 //! Cages and hashes are part of the test program, so that it needs no files. On another target it
 //! is built and run by
 //!
 //! ```sh
-//! cargo test --release -p evenlight --test bits                                # natively, as on aarch64
+//! cargo test --release -p evenlight --test bits     # natively, as on aarch64
 //! CARGO_TARGET_WASM32_WASIP1_RUNNER=wasmtime \
-//!     cargo test --release -p evenlight --test bits --target wasm32-wasip1     # in WebAssembly
+//!     cargo test --release -p evenlight --test bits --target wasm32-wasip1
 //! CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER='qemu-aarch64 -L /usr/aarch64-linux-gnu' \
 //! CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
 //!     cargo test --release -p evenlight --test bits --target aarch64-unknown-linux-gnu
@@ -143,8 +143,8 @@ fn hashes(surface: &Surface) -> [(&'static str, u64); 6] {
     ]
 }
 
-/// FNV-1a of the bits of all numbers. Places without a surface count as such; every NaN is the same,
-/// since its sign and payload are the processor's choice.
+/// FNV-1a of the bits of all numbers. Places without a surface count as such; every NaN is the
+/// same, since its sign and payload are the processor's choice.
 fn hash(answers: &[Option<SurfacePoint>], numbers: fn(&SurfacePoint) -> Vec<f64>) -> u64 {
     let mut hash = 0xCBF2_9CE4_8422_2325_u64;
     let mut add = |bits: u64| {

@@ -1,5 +1,5 @@
-//! Faults as data: the word of their kind, the line of the file, and what to mark, for every kind of
-//! fault that a file can have.
+//! Faults as data: the word of their kind, the line of the file, and what to mark, for every
+//! kind of fault that a file can have.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 

@@ -1,6 +1,7 @@
 //! Random cages, closed and flat, with n-gons, boundaries, creases, corners and holes: whatever
 //! passes the checks gives a surface in every scheme, and the surface is C2 where it should be,
 //! without cracks, flat if the cage is, and its triangles are watertight.
+#![allow(clippy::unwrap_used, reason = "a test that finds no surface fails")]
 
 mod common;
 

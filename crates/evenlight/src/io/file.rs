@@ -57,7 +57,8 @@ pub enum FileError {
 }
 
 impl FileError {
-    /// Every fault as data; of a file that cannot be read what the system says, of kind `unreadable`.
+    /// Every fault as data; of a file that cannot be read what the system says, of kind
+    /// `unreadable`.
     pub fn diagnostics(&self) -> Vec<Diagnostic> {
         match self {
             Self::Open { message, .. } => vec![Diagnostic::unreadable(message.clone(), None)],

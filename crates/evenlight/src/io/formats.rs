@@ -158,8 +158,8 @@ impl PatchFormat {
         Self::from_extension(path.as_ref().extension()?.to_str()?)
     }
 
-    /// Writes all regular patches, `rings` rings and, if it is closed, the caps of `surface`. Writes
-    /// many small pieces: give it something with a buffer.
+    /// Writes all regular patches, `rings` rings and, if it is closed, the caps of `surface`.
+    /// Writes many small pieces: give it something with a buffer.
     ///
     /// # Errors
     ///

@@ -44,7 +44,7 @@ use crate::surface::{PlacedPatch, Role, SurfaceOptions};
 /// let surface = Surface::build(Format::Obj.read_cage(quad)?.0, SurfaceOptions::default())?;
 /// let mut text = Vec::new();
 /// patch_json::write(&surface, 1, &mut text)?;
-/// assert!(text.starts_with(br#"{"scheme":"qas4","rules":"generated","contraction":"cc","rings":1,"#));
+/// assert!(text.starts_with(br#"{"scheme":"qas4","rules":"generated","contraction":"cc""#));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write(surface: &Surface, rings: usize, out: &mut impl Write) -> io::Result<()> {

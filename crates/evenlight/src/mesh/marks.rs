@@ -3,7 +3,8 @@
 
 use super::{FaceId, MeshError, Tagged, VertexId, Warning};
 
-/// Vertices, edges and faces of a mesh, to be marked. They need not exist: a fault may be just that.
+/// Vertices, edges and faces of a mesh, to be marked. They need not exist: a fault may be just
+/// that.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Marks {
     /// The vertices.

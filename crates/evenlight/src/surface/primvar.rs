@@ -107,9 +107,7 @@ fn padded<const N: usize>(primvar: &Primvar, value: usize) -> [f64; N] {
 fn resized<const M: usize, const N: usize>(jet: &Jet<M>) -> Jet<N> {
     let row = |x: &[f64; M]| {
         let mut row = [0.0; N];
-        for k in 0..N.min(M) {
-            row[k] = x[k];
-        }
+        row[..N.min(M)].copy_from_slice(&x[..N.min(M)]);
         row
     };
     let Jet { p, du, dv, duu, duv, dvv } = jet;
