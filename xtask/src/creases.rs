@@ -218,7 +218,8 @@ fn jacobian(f: usize) -> Result<[f64; 2], Box<dyn Error>> {
     let (surface, point) = build(&half_disc(f, &flat), CreaseRings::Fair)?;
     let middle = |k: usize| (k as f64 + 0.5) / GRID as f64;
     let mut values = Vec::new();
-    for patch in surface.rings(point).expect("the point is one of the surface").patches(RING) {
+    let rings = surface.rings(point).expect("the point is one of the surface");
+    for patch in rings.patches(RING).expect("there are so many rings") {
         let jets = (0..GRID * GRID).map(|k| patch.jet(middle(k / GRID), middle(k % GRID)));
         values.extend(jets.map(|jet| norm(cross(jet.du, jet.dv))));
     }

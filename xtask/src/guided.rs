@@ -204,7 +204,7 @@ fn guide_energies(n: usize) -> [Vec<f64>; 3] {
 /// A bi-5 patch from its coefficients, one coordinate per column.
 fn patch(square: &Matrix) -> Patch {
     let coef = |k: usize| [0, 1, 2].map(|d| square[(k, d)].to_f64());
-    Patch::new([5, 5], (0..square.num_rows()).map(coef).collect())
+    Patch::new([5, 5], (0..square.num_rows()).map(coef).collect()).expect("a bi-5 patch")
 }
 
 /// What a node of a net is pulled up by: its place in the plane, its sector and (a, b) there.

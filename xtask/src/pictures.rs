@@ -190,7 +190,8 @@ fn patches() -> Result<Picture> {
 /// Eigenfunctions of guided5 at valence 5: the even ones of eigenvalues lambda^2 to lambda^4.
 fn eigenfunctions() -> Result<Picture> {
     let functions = Eigenfunctions::new(SchemeKind::Guided5, 5).ok_or("guided5 has valence 5")?;
-    let is_even = |&k: &usize| functions.guide(k).parity() == Parity::Even;
+    let is_even =
+        |&k: &usize| functions.guide(k).is_some_and(|guide| guide.parity() == Parity::Even);
     let from_degree_2 = functions.of_degree(2).start..functions.len();
     let which: Vec<usize> = from_degree_2.filter(is_even).take(10).collect();
     let options = GraphOptions { size: [1400, 560], ..GraphOptions::default() };

@@ -154,7 +154,9 @@ struct Around<'a> {
 
 impl Around<'_> {
     fn add_to(&self, sum: &mut Measures) {
-        for patch in (0..ENERGY_RINGS).flat_map(|ring| self.rings.patches(ring)) {
+        for patch in (0..ENERGY_RINGS)
+            .flat_map(|ring| self.rings.patches(ring).expect("it is a place of the surface"))
+        {
             sum.mean_energy += shape_energy(&patch);
             sum.gauss_energy += gauss_energy(&patch);
         }
@@ -190,7 +192,7 @@ impl Around<'_> {
             let steps = (0..=RINGS * RAY_STEPS).map(|step| {
                 let part = (step % RAY_STEPS) as f64 / RAY_STEPS as f64;
                 let r = self.radius(step / RAY_STEPS, part);
-                self.rings.eval(s, r * a, r * b).mean
+                self.rings.eval(s, r * a, r * b).expect("it is a place of the surface").mean
             });
             steps.filter(|mean| mean.is_finite()).collect()
         };
@@ -203,7 +205,7 @@ impl Around<'_> {
         let places = sectors.flat_map(|s| (0..=CURVE_STEPS).map(move |k| (s, k)));
         let points = places.map(|(s, k)| {
             let [a, b] = on_corner(k as f64 / CURVE_STEPS as f64);
-            let point = self.rings.eval(s, r * a, r * b);
+            let point = self.rings.eval(s, r * a, r * b).expect("it is a place of the surface");
             (point.mean, point.gauss)
         });
         points.filter(|(mean, _)| mean.is_finite()).collect()
@@ -292,7 +294,7 @@ fn far_over_largest(surface: &Surface, from: [f64; 3], spike: [f64; 2]) -> f64 {
         let r = 0.5_f64.powf(f64::from(step) / 16.0);
         for k in 0..=CURVE_STEPS {
             let [a, b] = on_corner(k as f64 / CURVE_STEPS as f64);
-            let found = rings.eval(sector, r * a, r * b);
+            let found = rings.eval(sector, r * a, r * b).expect("it is a place of the surface");
             let [x, y] = [0, 1].map(|d| found.jet.p[d] - from[d]);
             let angle = (spike[0] * y - spike[1] * x).atan2(spike[0] * x + spike[1] * y);
             largest = largest.max(found.mean.abs());

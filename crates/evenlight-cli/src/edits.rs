@@ -131,15 +131,17 @@ fn quadratic(surface: &Surface, point: usize, change: &Change) -> Result<Quadrat
     let q = match change {
         Change::Affine { matrix, translation } => moved(default, *matrix, *translation),
         Change::Coefficients(coefs) => Quadratic { coefs: *coefs },
-        Change::Sectors(sectors) if sectors.len() == valence => Quadratic::from_proposals(sectors),
         Change::Sectors(sectors) => {
-            return Err(format!(
-                "sectors has {} lists, but the point has valence {valence}: give one per sector",
-                sectors.len()
-            ));
+            let right = Some(sectors).filter(|sectors| sectors.len() == valence);
+            right.and_then(|sectors| Quadratic::from_proposals(sectors)).ok_or_else(|| {
+                format!(
+                    "sectors has {} lists, but the point has valence {valence}: give one per sector",
+                    sectors.len()
+                )
+            })?
         }
     };
-    let all = (0..valence).flat_map(|s| q.in_sector(valence, s).coefs);
+    let all = (0..valence).filter_map(|s| q.in_sector(valence, s)).flat_map(|q| q.coefs);
     let is_finite = all.flatten().all(f64::is_finite);
     if is_finite { Ok(q) } else { Err("the numbers are too large to compute with".to_owned()) }
 }
@@ -170,7 +172,8 @@ fn not_a_vertex(surface: &Surface, vertex: VertexId) -> String {
     if !topology.is_used(vertex) {
         return format!("vertex {v} is in no face: take one that is");
     }
-    if topology.ring(vertex).all(|h| surface.is_omitted(topology.face(h))) {
+    let mut around = topology.ring(vertex).filter_map(|h| topology.get(h));
+    if around.all(|h| surface.is_omitted(h.face())) {
         return format!("all faces at vertex {v} are left out ({WHY_OMITTED}): take another");
     }
     format!("vertex {v} has valence {}: {ONLY_EXTRAORDINARY}", topology.valence(vertex))

@@ -79,7 +79,7 @@ fn rows(surface: &Surface) -> Vec<Row<'_>> {
     let row = |(k, point)| {
         let rings = surface.rings(k)?;
         let q = *rings.quadratic()?;
-        let principal_curvatures = rings.eval(0, 0.0, 0.0).principal_curvatures();
+        let principal_curvatures = rings.eval(0, 0.0, 0.0)?.principal_curvatures();
         Some(Row { point, rings, q, principal_curvatures })
     };
     points.filter_map(row).collect()
@@ -109,8 +109,8 @@ fn object(row: &Row, with_sectors: bool) -> String {
         Place::FaceCentre(f) => format!("\"face\": {}", f.0),
     };
     let points = if with_sectors {
-        let sectors = (0..point.valence).map(|s| q.in_sector(point.valence, s).coefs);
-        format!("\"sectors\": [{}]", sectors.map(|q| lines(&q)).collect::<Vec<_>>().join(","))
+        let sectors = (0..point.valence).filter_map(|s| q.in_sector(point.valence, s));
+        format!("\"sectors\": [{}]", sectors.map(|q| lines(&q.coefs)).collect::<Vec<_>>().join(","))
     } else {
         format!("\"coefficients\": {}", lines(&q.coefs))
     };

@@ -32,8 +32,11 @@
 //! Primvars of N numbers have the same rings. Their first three numbers are taken as a point in
 //! space; a fourth has no frame and shrinks by lambda.
 
+mod depth;
+mod frame;
 mod grid;
 
+pub(crate) use depth::{in_ring, power, ring_of, scaled_up};
 pub(crate) use grid::for_each_pair;
 
 use std::sync::{Arc, OnceLock};
@@ -41,11 +44,12 @@ use std::sync::{Arc, OnceLock};
 use crate::net::{CNet, DNet, Expansion, Fan, Quadratic};
 use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
-use crate::point::{Vector, add, add_scaled, cross, dot, in_space, norm, scale, sub, unit};
+use crate::point::{Vector, add, in_space, scale, sub};
 use crate::scheme::{
     FairFan, FanLimit, PatchParameters, Rules, SchemeKind, Subdominant, Variant, fair_rules,
     fan_rules,
 };
+use frame::{Frame, HEIGHT, RingScale, frame_shape};
 
 /// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
 /// valence.
@@ -137,7 +141,7 @@ impl ValenceRules {
 /// net.sectors[0][11] = [0.0, 0.0, 1.0];
 /// let rings = Rings::from_dnet(&net, SchemeKind::EvolvingGuide, RuleSet::Generated).unwrap();
 /// assert_eq!(rings.valence(), 5);
-/// assert_eq!(rings.patches(0).len(), 15);
+/// assert_eq!(rings.patches(0).map(|ring| ring.len()), Some(15));
 /// ```
 #[derive(Debug)]
 pub struct Rings<const N: usize = 3> {
@@ -152,25 +156,13 @@ pub struct Rings<const N: usize = 3> {
     cached: [OnceLock<Box<Ring<N>>>; CACHED_RINGS],
 }
 
+/// The rings that can be asked for by their numbers, from 0. A later one is smaller than the least
+/// `f64`, whatever the contraction.
+pub const MAX_RINGS: usize = 4096;
+
 /// Rings that are kept once they were asked for. A parameter closer to the centre than
 /// 2^-64 (sigma^64) is made of the last of them anew, in time proportional to its depth.
 pub(crate) const CACHED_RINGS: usize = 64;
-
-/// Tangents shorter than this part of the net, or closer to parallel, are none: rounding leaves
-/// 1e-16 where they should vanish, and a sound cage stays far above.
-const FLATTEST: f64 = 1e-12;
-
-/// Where X, Y and Z point, and how Z shrinks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Frame<const N: usize> {
-    axes: [[f64; N]; N],
-    /// Whether Z is the height over a tangent plane. There is none if the tangents are parallel
-    /// or zero (a cusp, or all points in one); then Z shrinks like X and Y.
-    has_plane: bool,
-}
-
-/// The number of the coordinate that is the height over the tangent plane.
-const HEIGHT: usize = 2;
 
 /// The BB coefficients of patches, one after the other.
 type Coefs<const N: usize> = Box<[[f64; N]]>;
@@ -186,55 +178,33 @@ struct Ring<const N: usize> {
     scale: RingScale<N>,
 }
 
-/// How the coordinates of a ring become those of the world.
-#[derive(Clone, Copy, Debug)]
-struct RingScale<const N: usize> {
-    /// The axes of the frame, the height with its factor zeta.
-    axes: [[f64; N]; N],
-    zeta: f64,
-    /// lambda^l, the factor of positions.
-    sigma: f64,
-    /// The factors of first and second derivatives, which are by a and b: those run sigma^-l times
-    /// as fast.
-    first: f64,
-    second: f64,
-}
-
-impl<const N: usize> RingScale<N> {
-    /// factor (X, Y, zeta Z) in world coordinates.
-    #[inline(always)]
-    fn world(&self, factor: f64, r: [f64; N]) -> [f64; N] {
-        let mut world = [0.0; N];
-        for (k, x) in world.iter_mut().enumerate() {
-            let mut sum = r[0] * self.axes[0][k];
-            for (y, axis) in r.iter().zip(&self.axes).skip(1) {
-                sum += y * axis[k];
-            }
-            *x = factor * sum;
-        }
-        world
-    }
-}
-
 impl Rings {
     /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`.
     ///
+    /// `None` if `s` is not below the valence or a, b are not from 0 to 1.
+    ///
     /// At (0,0) the position is the limit point and the normal the limit normal; derivatives are
-    /// NaN there, curvature is [`Rings::center_curvature`] or NaN. Elsewhere curvature is exact to rounding at any depth.
-    /// Derivatives are in world coordinates; beyond ring 500 or so the second derivatives may
-    /// exceed the range of f64.
-    ///
-    /// # Panics
-    ///
-    /// If `s` is not below the valence or a, b are not from 0 to 1.
-    pub fn eval(&self, s: usize, a: f64, b: f64) -> SurfacePoint {
-        self.eval_as(s, a, b)
+    /// NaN there, curvature is [`Rings::center_curvature`] or NaN. Elsewhere curvature is exact to
+    /// rounding at any depth. Derivatives are in world coordinates; beyond ring 500 or so the second
+    /// derivatives may exceed the range of f64.
+    pub fn eval(&self, s: usize, a: f64, b: f64) -> Option<SurfacePoint> {
+        let is_inside = [a, b].iter().all(|x| (0.0..=1.0).contains(x));
+        (s < self.valence() && is_inside).then(|| self.eval_as(s, a, b))
     }
 
     /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
-    /// polynomial is extrapolated if (a,b) is not in the patch.
-    pub fn eval_on(&self, ring: usize, s: usize, which: usize, a: f64, b: f64) -> SurfacePoint {
-        self.eval_on_as(ring, s, which, [a, b])
+    /// polynomial is extrapolated if (a,b) is not in the patch. `None` if there is no such patch, or
+    /// a or b is NaN.
+    pub fn eval_on(
+        &self,
+        ring: usize,
+        s: usize,
+        which: usize,
+        a: f64,
+        b: f64,
+    ) -> Option<SurfacePoint> {
+        let is_known = self.has_patch(ring, s, which) && !a.is_nan() && !b.is_nan();
+        is_known.then(|| self.eval_on_as(ring, s, which, [a, b]))
     }
 }
 
@@ -257,7 +227,7 @@ impl<const N: usize> Rings<N> {
         variant: impl Into<Variant>,
     ) -> Option<Self> {
         let rules = Arc::new(ValenceRules::new(kind, variant.into(), dnet.valence())?);
-        let center = dnet.center(kind.spline()?);
+        let center = dnet.center(kind.spline()?)?;
         let net: Vec<[f64; N]> = dnet.sectors.iter().flatten().map(|&p| sub(p, center)).collect();
         Some(Self::start(&net, center, None, rules))
     }
@@ -367,32 +337,45 @@ impl<const N: usize> Rings<N> {
     }
 
     /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; in ring l
-    /// it is sigma^l as large. The patch's own parameters run the same way.
+    /// it is sigma^l as large. The patch's own parameters run the same way. `None` if there is no
+    /// such patch.
     ///
     /// With s = sigma patches lie in three squares, \[s,1\] x \[s,1\], \[s,1\] x \[0,s\] and
     /// \[0,s\] x \[s,1\], one in each, 2 x 2 or 3 x 3, the index along b fastest.
-    pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
-        self.rules.rules.patch_domain(which)
+    pub fn patch_domain(&self, which: usize) -> Option<[[f64; 2]; 2]> {
+        (which < self.patches_per_sector()).then(|| self.rules.rules.patch_domain(which))
     }
 
-    /// All patches of ring `ring` (from 0), sector by sector.
-    pub fn patches(&self, ring: usize) -> Vec<Patch<N>> {
-        self.frame_patches(ring).iter().map(|patch| self.to_world(ring, patch)).collect()
+    /// All patches of ring `ring` (from 0), sector by sector; `None` if it is not below
+    /// [`MAX_RINGS`].
+    pub fn patches(&self, ring: usize) -> Option<Vec<Patch<N>>> {
+        let all = || self.frame_patches(ring).iter().map(|p| self.to_world(ring, p)).collect();
+        (ring < MAX_RINGS).then(all)
     }
 
-    /// Patch `which` of sector `s` of ring `ring`.
-    pub fn patch(&self, ring: usize, s: usize, which: usize) -> Patch<N> {
+    /// Patch `which` of sector `s` of ring `ring`; `None` if there is no such patch.
+    pub fn patch(&self, ring: usize, s: usize, which: usize) -> Option<Patch<N>> {
+        self.has_patch(ring, s, which).then(|| self.patch_at(ring, s, which))
+    }
+
+    /// Whether there is such a patch.
+    fn has_patch(&self, ring: usize, s: usize, which: usize) -> bool {
+        ring < MAX_RINGS && s < self.valence() && which < self.patches_per_sector()
+    }
+
+    /// The patch that there is.
+    pub(crate) fn patch_at(&self, ring: usize, s: usize, which: usize) -> Patch<N> {
         self.with_ring(ring, |net, r| {
             let mut coefs = self.coefs(net, r, s, which);
             coefs.iter_mut().for_each(|p| *p = add(self.center, r.scale.world(r.scale.sigma, *p)));
-            Patch::new([self.rules.rules.degree; 2], coefs)
+            Patch::of([self.rules.rules.degree; 2], coefs)
         })
     }
 
-    /// [`Rings::eval`] of what is wanted alone.
+    /// [`Rings::eval`] of what is wanted alone, in a sector that there is.
     #[inline]
     pub(crate) fn eval_as<A: Answer<N>>(&self, s: usize, a: f64, b: f64) -> A {
-        assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
+        debug_assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
         if a.max(b) == 0.0 {
             return self.at_center();
         }
@@ -401,7 +384,7 @@ impl<const N: usize> Rings<N> {
         self.eval_in_patch(ring, s, place)
     }
 
-    /// [`Rings::eval_on`] of what is wanted alone.
+    /// [`Rings::eval_on`] of what is wanted alone, of a patch that there is.
     pub(crate) fn eval_on_as<A: Answer<N>>(
         &self,
         ring: usize,
@@ -514,7 +497,7 @@ impl<const N: usize> Rings<N> {
 
     /// Patch `which` of sector `s` of the ring behind `net`.
     fn frame_patch(&self, net: &[[f64; N]], ring: &Ring<N>, s: usize, which: usize) -> Patch<N> {
-        Patch::new([self.rules.rules.degree; 2], self.coefs(net, ring, s, which))
+        Patch::of([self.rules.rules.degree; 2], self.coefs(net, ring, s, which))
     }
 
     /// The BB coefficients of patch `which` of sector `s` of the ring behind `net`.
@@ -571,7 +554,7 @@ impl<const N: usize> Rings<N> {
     pub(crate) fn to_world(&self, ring: usize, patch: &Patch<N>) -> Patch<N> {
         let scale = self.ring_scale(ring);
         let point = |&r: &[f64; N]| add(self.center, scale.world(scale.sigma, r));
-        Patch::new(patch.degree(), patch.coefs().iter().map(point).collect())
+        Patch::of(patch.degree(), patch.coefs().iter().map(point).collect())
     }
 
     /// Calls `f` with the net in front of ring `ring` and the ring.
@@ -626,147 +609,4 @@ impl<const N: usize> Rings<N> {
         }
         net
     }
-}
-
-impl<const N: usize> Frame<N> {
-    /// The axes of space, without a plane.
-    const WORLD: Self = {
-        let (mut axes, mut k) = ([[0.0; N]; N], 0);
-        while k < N {
-            axes[k][k] = 1.0;
-            k += 1;
-        }
-        Self { axes, has_plane: false }
-    };
-
-    /// The frame of the limit tangent plane of a net.
-    fn new(subdominant: &Subdominant, net: &[[f64; N]]) -> Self {
-        let [a, b] = subdominant.tangents(net).map(in_space);
-        let normal = cross(b, a);
-        let longer = dot(a, a).max(dot(b, b));
-        let size_sq = net.iter().map(|&p| in_space(p)).map(|p| dot(p, p)).fold(0.0, f64::max);
-        let has_plane = longer > FLATTEST * FLATTEST * size_sq && norm(normal) > FLATTEST * longer;
-        let mut axes = Self::WORLD.axes;
-        if has_plane {
-            let normal = unit(normal);
-            let first = unit(if dot(a, a) > dot(b, b) { a } else { b });
-            for (axis, turned) in axes.iter_mut().zip([first, cross(normal, first), normal]) {
-                axis.iter_mut().zip(turned).for_each(|(x, y)| *x = y);
-            }
-        }
-        Self { axes, has_plane }
-    }
-
-    /// Whether one of the numbers is a height over a tangent plane.
-    fn has_height(&self) -> bool {
-        self.has_plane && N > HEIGHT
-    }
-
-    /// The normal of the tangent plane, or NaN.
-    fn normal(&self) -> Vector {
-        match self.axes.get(HEIGHT) {
-            Some(&axis) if self.has_plane => in_space(axis),
-            _ => [f64::NAN; 3],
-        }
-    }
-
-    fn coordinates(&self, p: [f64; N]) -> [f64; N] {
-        self.axes.map(|axis| dot(axis, p))
-    }
-
-    /// F r, without any factor.
-    fn world(&self, r: [f64; N]) -> [f64; N] {
-        let mut p = scale(r[0], self.axes[0]);
-        for (&x, &axis) in r.iter().zip(&self.axes).skip(1) {
-            add_scaled(&mut p, x, axis);
-        }
-        p
-    }
-
-    /// A direction of the first three coordinates.
-    fn direction(&self, r: Vector) -> Vector {
-        let mut p = scale(r[0], in_space(self.axes[0]));
-        for (&x, &axis) in r.iter().zip(&self.axes).skip(1) {
-            add_scaled(&mut p, x, in_space(axis));
-        }
-        p
-    }
-}
-
-/// Unit normal, Gauss and mean curvature of the map sigma (X, Y, zeta Z), whose jet is given
-/// without the factors.
-///
-/// With r = (X, Y, zeta Z), w = |r_u x r_v| and the determinants D_uu = det(X_u, X_v, X_uu) of the
-/// unscaled coordinates,
-///
-/// ```text
-/// K = (zeta/sigma)^2 (D_uu D_vv - D_uv^2) / w^4,
-/// H = (zeta/sigma) (E D_vv - 2 F D_uv + G D_uu) / (2 w^3),   E, F, G of r.
-/// ```
-///
-/// Nothing in it becomes small when sigma = zeta does.
-fn frame_shape<const N: usize>(jet: &Jet<N>, sigma: f64, zeta: f64) -> Shape {
-    let flat = |r: Vector| [r[0], r[1], zeta * r[2]];
-    let [du, dv] = [jet.du, jet.dv].map(in_space);
-    let volume = cross(du, dv);
-    let determinants = [jet.duu, jet.duv, jet.dvv].map(|r| dot(volume, in_space(r)));
-    let shape = Shape::new(flat(du), flat(dv), determinants);
-    let ratio = if zeta == sigma { 1.0 } else { zeta / sigma };
-    Shape { gauss: ratio * ratio * shape.gauss, mean: ratio * shape.mean, ..shape }
-}
-
-/// The ring of a place (a,b) of a sector other than its centre, and the place in it, as if it were
-/// ring 0.
-#[inline]
-pub(crate) fn in_ring([a, b]: [f64; 2], sigma: f64) -> (usize, [f64; 2]) {
-    let largest = a.max(b);
-    if sigma != 0.5 || largest < f64::MIN_POSITIVE {
-        let ring = ring_of(largest, sigma);
-        return (ring, [a, b].map(|x| scaled_up(x, ring, sigma)));
-    }
-    // largest = mantissa 2^-k, 1 <= mantissa < 2: ring k if it is a power of 2, else the one before.
-    let bits = largest.to_bits();
-    let is_power = bits & ((1 << MANTISSA) - 1) == 0;
-    let ring = EXPONENT_OF_ONE - (bits >> MANTISSA) - u64::from(!is_power);
-    let up = f64::from_bits((EXPONENT_OF_ONE + ring) << MANTISSA);
-    (ring as usize, [up * a, up * b])
-}
-
-/// The number of bits of the mantissa of an `f64`.
-const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
-/// The bits of the exponent of 1.
-const EXPONENT_OF_ONE: u64 = f64::MAX_EXP as u64 - 1;
-
-/// The ring l with sigma^(l+1) < x <= sigma^l, for 0 < x <= 1.
-pub(crate) fn ring_of(x: f64, sigma: f64) -> usize {
-    let factor = 1.0 / sigma;
-    let (mut ring, mut x) = (0, x * OUT_OF_THE_DENORMALS);
-    while x <= sigma * OUT_OF_THE_DENORMALS {
-        x *= factor;
-        ring += 1;
-    }
-    ring
-}
-
-/// x / sigma^ring, the same product as in [`ring_of`]; exact if sigma is 1/2 (2^ring itself may be
-/// out of range when x is denormal).
-pub(crate) fn scaled_up(x: f64, ring: usize, sigma: f64) -> f64 {
-    let factor = 1.0 / sigma;
-    (0..ring).fold(x * OUT_OF_THE_DENORMALS, |x, _| factor * x) / OUT_OF_THE_DENORMALS
-}
-
-/// 2^200: among denormal numbers multiplication by a factor below 3/2 may not change anything.
-const OUT_OF_THE_DENORMALS: f64 = (1_u128 << 100) as f64 * (1_u128 << 100) as f64;
-
-/// x^k by repeated squaring, in a fixed order of rounding.
-pub(crate) fn power(x: f64, k: usize) -> f64 {
-    let (mut result, mut square, mut k) = (1.0, x, k);
-    while k > 0 {
-        if k & 1 == 1 {
-            result *= square;
-        }
-        square *= square;
-        k >>= 1;
-    }
-    result
 }

@@ -30,7 +30,7 @@ fn euler_of_cage(surface: &Surface) -> i64 {
         faces += 1;
         vertices.extend(topology.faces().corners(face));
         for k in 0..topology.faces().corners(face).len() {
-            let h = topology.half_edge(face, k);
+            let h = topology.half_edge_at(face, k).unwrap().id();
             edges.insert(topology.twin(h).map_or(h, |twin| twin.min(h)));
         }
     }
@@ -94,7 +94,7 @@ fn check_edges(surface: &Surface, complex: &PatchComplex, has_holes: bool, name:
             assert!(matches!(edge.kind, EdgeKind::Smooth | EdgeKind::Rim), "{name}: {edge:?}");
             continue;
         };
-        let covered = |h| !surface.is_omitted(topology.face(h));
+        let covered = |h| !surface.is_omitted(topology.get(h).unwrap().face());
         let sides = [Some(h), topology.twin(h)].into_iter().flatten().filter(|&h| covered(h));
         let expected = match sides.count() {
             1 => [EdgeKind::Boundary; 2],
@@ -112,7 +112,7 @@ fn largest_difference(surface: &Surface, complex: &PatchComplex) -> [f64; 2] {
     for (id, edge) in complex.edges().filter(|(_, edge)| edge.uses().len() == 2) {
         let [a, b] = [0, 1].map(|k| complex.border_of_use(surface, id, k).unwrap());
         let degree = a.degree().max(b.degree());
-        let (a, b) = (a.raised(degree), b.raised(degree));
+        let (a, b) = (a.raised(degree).unwrap(), b.raised(degree).unwrap());
         let size = a.coefs().iter().map(|&p| norm(p)).fold(0.0, f64::max);
         let apart = a.coefs().iter().zip(b.coefs()).map(|(&p, &q)| norm(sub(p, q)));
         let is_cap = |k: usize| complex.place(edge.uses()[k].patch).unwrap().role == Role::Cap;
@@ -169,22 +169,24 @@ fn holes(surface: &Surface) -> i64 {
     }
     for &vertex in &vertices {
         let quad = |h| {
-            let face = topology.face(h);
+            let face = topology.get(h).unwrap().face();
             let corners = topology.faces().corners(face).len();
-            surface.quad(face, if corners == 4 { 0 } else { topology.corner(h) }).unwrap()
+            surface
+                .quad(face, if corners == 4 { 0 } else { topology.get(h).unwrap().corner() })
+                .unwrap()
         };
         let has_hole = |h| of_points.contains(&(vertex, quad(h)));
-        let is_covered = |h| !surface.is_omitted(topology.face(h));
+        let is_covered = |h| !surface.is_omitted(topology.get(h).unwrap().face());
         // Sectors that are holes; edges at the vertex without a patch on either side.
         let faces = topology.ring(vertex).filter(|&h| has_hole(h)).count() as i64;
         let mut edges = 0;
         for h in topology.ring(vertex) {
-            let clockwise = topology.twin(h).map(|twin| topology.next(twin));
+            let clockwise = topology.get(h).unwrap().twin().map(|twin| twin.next().id());
             let around = [Some(h), clockwise].into_iter().flatten().filter(|&h| is_covered(h));
             let around: Vec<_> = around.collect();
             edges += i64::from(!around.is_empty() && around.iter().all(|&h| has_hole(h)));
             // The last edge at a boundary leaves no half-edge.
-            let last = topology.twin(topology.previous(h)).is_none();
+            let last = topology.get(h).unwrap().previous().twin().is_none();
             edges += i64::from(last && is_covered(h) && has_hole(h));
         }
         let all = topology.ring(vertex).filter(|&h| is_covered(h)).all(has_hole);
@@ -407,7 +409,7 @@ fn position(surface: &Surface, place: VertexPlace) -> Vector {
     let quad = |face, corner| surface.quad(face, corner).unwrap();
     let at = |quad, [u, v]: [f64; 2]| surface.eval(quad, u, v).unwrap().jet.p;
     let on_edge = |h, t: f64| {
-        let (face, k) = (topology.face(h), topology.corner(h));
+        let (face, k) = (topology.get(h).unwrap().face(), topology.get(h).unwrap().corner());
         let corners = topology.faces().corners(face).len();
         match (corners, t <= 0.5) {
             (4, _) => at(quad(face, 0), [[t, 0.0], [1.0, t], [1.0 - t, 1.0], [0.0, 1.0 - t]][k]),

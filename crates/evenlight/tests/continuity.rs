@@ -54,10 +54,10 @@ fn rings_join_c2_at_any_depth() {
             let h = 0.5_f64.powi(ring);
             // The border between ring `ring - 1` and `ring`: a = h, b from 0 to h.
             for (which, inner) in borders(rings) {
-                let [[_, _], [b0, b1]] = rings.patch_domain(inner);
+                let [[_, _], [b0, b1]] = rings.patch_domain(inner).unwrap();
                 let b = h * (0.5 * b0 + 0.5 * b1);
-                let out = rings.eval_on(ring as usize - 1, 2, which, h, b).jet;
-                let inn = rings.eval_on(ring as usize, 2, inner, h, b).jet;
+                let out = rings.eval_on(ring as usize - 1, 2, which, h, b).unwrap().jet;
+                let inn = rings.eval_on(ring as usize, 2, inner, h, b).unwrap().jet;
                 let rows = out.rows().into_iter().zip(inn.rows()).skip(1);
                 let scaled = |r: evenlight::Vector, order: usize| norm(r) * h.powi(order as i32);
                 let size: f64 = scaled(out.du, 1) + scaled(out.duu, 2);
@@ -73,11 +73,12 @@ fn rings_join_c2_at_any_depth() {
 /// Pairs of patches of a ring and the next that touch along a = 1/2 of the outer one.
 fn borders(rings: &Rings) -> Vec<(usize, usize)> {
     let all = || 0..rings.patches_per_sector();
-    let outer = all().filter(|&p| rings.patch_domain(p)[0][0] == 0.5);
-    let inner = all().filter(|&p| rings.patch_domain(p)[0][1] == 1.0);
+    let outer = all().filter(|&p| rings.patch_domain(p).unwrap()[0][0] == 0.5);
+    let inner = all().filter(|&p| rings.patch_domain(p).unwrap()[0][1] == 1.0);
     let inner: Vec<usize> = inner.collect();
     let touch = |p: usize, q: usize| {
-        let ([_, [p0, p1]], [_, [q0, q1]]) = (rings.patch_domain(p), rings.patch_domain(q));
+        let ([_, [p0, p1]], [_, [q0, q1]]) =
+            (rings.patch_domain(p).unwrap(), rings.patch_domain(q).unwrap());
         let middle = 0.25 * (q0 + q1);
         p0 <= middle && middle <= p1
     };

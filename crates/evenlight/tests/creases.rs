@@ -221,7 +221,7 @@ fn normals_at_creases_and_darts_are_limits() {
             }
             let rings = surface.rings(k).unwrap();
             for s in 0..rings.valence() {
-                let near = rings.eval(s, 1e-9, 0.7e-9).normal;
+                let near = rings.eval(s, 1e-9, 0.7e-9).unwrap().normal;
                 // The second direction shrinks little faster than the third.
                 let gap = norm(sub(near, rings.normal()));
                 assert!(gap < 2e-2, "n = {n} {lines:?} {:?}: {gap}", point.fan);

@@ -170,7 +170,8 @@ fn derivatives_agree_with_finite_differences_in_rings_1_to_20() {
                 for _ in 0..20 {
                     // Inside one of the patches, so that the stencil stays in it.
                     let rings = surface.rings(0).unwrap();
-                    let domain = rings.patch_domain(random.below(rings.patches_per_sector()));
+                    let domain =
+                        rings.patch_domain(random.below(rings.patches_per_sector())).unwrap();
                     let [a, b] = domain
                         .map(|[from, to]| h * (from + (to - from) * (0.3 + 0.4 * random.unit())));
                     // Parameters straight from the sector: at corner 0 of their quad (u,v) is

@@ -126,7 +126,7 @@ fn all_is_c2_but_for_the_crease_whose_curve_stays() {
             assert!(norm(sub(rings.center(), before.center())) < 1e-15);
             for t in [1.0, 0.7, 0.5, 0.3, 0.1, 1e-3, 1e-6] {
                 for (s, a, b) in [(0, t, 0.0), (rings.valence() - 1, 0.0, t)] {
-                    let (p, q) = (rings.eval(s, a, b), before.eval(s, a, b));
+                    let (p, q) = (rings.eval(s, a, b).unwrap(), before.eval(s, a, b).unwrap());
                     assert!(norm(sub(p.jet.p, q.jet.p)) < 1e-14, "{f} {g} {t}");
                 }
             }
@@ -183,7 +183,7 @@ fn there_is_a_tangent_plane() {
             for s in 0..rings.valence() {
                 for distance in [1e-4, 1e-8, 1e-12] {
                     for (a, b) in [(1.0, 0.0), (0.8, 0.7), (0.1, 1.0)] {
-                        let near = rings.eval(s, a * distance, b * distance);
+                        let near = rings.eval(s, a * distance, b * distance).unwrap();
                         let gap = norm(sub(near.normal, rings.normal()));
                         assert!(gap < 100.0 * distance + 1e-15, "{f} {g}: {gap:e} at {distance:e}");
                     }
@@ -205,7 +205,7 @@ fn curvature_is_bounded() {
                 for (a, b) in [(0.9, 0.0), (0.7, 0.6), (0.2, 0.75)] {
                     let at = |ring: i32| {
                         let scale = 0.5_f64.powi(ring);
-                        rings.eval(s, a * scale, b * scale)
+                        rings.eval(s, a * scale, b * scale).unwrap()
                     };
                     let [near, nearer, nearest] = [20, 30, 40].map(at);
                     let size = 1.0 + near.mean.abs();
@@ -239,7 +239,7 @@ fn flat_cages_stay_flat_and_do_not_fold() {
                     if a + b == 0.0 {
                         continue;
                     }
-                    let at = rings.eval(s, a, b);
+                    let at = rings.eval(s, a, b).unwrap();
                     assert!(at.jet.p[2].abs() < 1e-15);
                     assert!(at.normal[2] > 0.999_999, "{f} {g}: fold in sector {s} at {a} {b}");
                 }
@@ -273,7 +273,8 @@ fn the_rings_are_those_of_the_prototype() {
         let center = points.iter().position(|p| p.vertex() == Some(VertexId(0))).unwrap();
         assert_eq!(points[center].level, 0);
         let scale = 0.25 * 0.5_f64.powi(ring);
-        let found = surface.rings(center).unwrap().eval(f as usize - 1, 3.25 * scale, 3.5 * scale);
+        let found =
+            surface.rings(center).unwrap().eval(f as usize - 1, 3.25 * scale, 3.5 * scale).unwrap();
         assert!(norm(sub(found.jet.p, p)) < 1e-10, "{f}, {ring}: {:?}", found.jet.p);
         assert!((found.mean - mean).abs() < 1e-8, "{f}, {ring}: {}", found.mean);
     }
@@ -319,7 +320,10 @@ fn every_scheme_has_them() {
             SurfaceOptions { scheme, creases: CreaseRings::Fair, ..SurfaceOptions::default() };
         let surface = Surface::build(Cage::new(mesh.clone()).unwrap(), options).unwrap();
         let points = fair_points(&surface);
-        points.into_iter().map(|p| surface.rings(p).unwrap().patches(2)).collect::<Vec<_>>()
+        points
+            .into_iter()
+            .map(|p| surface.rings(p).unwrap().patches(2).unwrap())
+            .collect::<Vec<_>>()
     };
     let first = rings(SchemeKind::CatmullClark);
     assert!(SchemeKind::ALL.into_iter().all(|scheme| rings(scheme) == first));
@@ -360,8 +364,10 @@ fn goes_on(name: &str, rings: &Rings, cap: &Cap) {
     for (s, k) in (0..rings.valence()).flat_map(|s| (0..=16).map(move |k| (s, k))) {
         let t = f64::from(k) / 16.0;
         for at in [[1.0, t], [t, 1.0]] {
-            let (own, next) =
-                (cap.eval(rings, s, at).jet, rings.eval(s, hole * at[0], hole * at[1]).jet);
+            let (own, next) = (
+                cap.eval(rings, s, at).unwrap().jet,
+                rings.eval(s, hole * at[0], hole * at[1]).unwrap().jet,
+            );
             let size = norm(next.du) + norm(next.dv);
             near(own.p, next.p, 1.0);
             near(own.du, next.du, size);
@@ -374,12 +380,12 @@ fn goes_on(name: &str, rings: &Rings, cap: &Cap) {
             let next = if k == 0 {
                 rings.center()
             } else {
-                rings.eval(s, hole * at[0], hole * at[1]).jet.p
+                rings.eval(s, hole * at[0], hole * at[1]).unwrap().jet.p
             };
-            near(cap.eval(rings, s, at).jet.p, next, 1.0);
+            near(cap.eval(rings, s, at).unwrap().jet.p, next, 1.0);
         }
     }
-    let center = cap.eval(rings, 0, [0.0, 0.0]);
+    let center = cap.eval(rings, 0, [0.0, 0.0]).unwrap();
     near(center.jet.p, rings.center(), 1.0);
     near(center.normal, rings.normal(), 1e3);
 }
@@ -396,7 +402,7 @@ fn flat_caps_do_not_fold() {
             let (rings, cap) = (surface.rings(point).unwrap(), surface.cap(point).unwrap());
             for (s, k) in (0..rings.valence()).flat_map(|s| (1..81).map(move |k| (s, k))) {
                 let at = [f64::from(k % 9) / 8.0, f64::from(k / 9) / 8.0];
-                let found = cap.eval(rings, s, at);
+                let found = cap.eval(rings, s, at).unwrap();
                 assert!(found.jet.p[2].abs() < 1e-15);
                 assert!(found.normal[2] > 0.999_999, "{f} {g}: fold in sector {s} at {at:?}");
             }

@@ -19,7 +19,7 @@ fn rings_of_a_cnet_are_the_prototypes() {
             for ring in [0, 1] {
                 // The squares A, B, C of the files are 1, 0, 2 here.
                 for (square, which) in [1, 0, 2].into_iter().enumerate() {
-                    let patch = rings.patch(ring, 1, which);
+                    let patch = rings.patch(ring, 1, which).unwrap();
                     let order = patch.degree()[0] + 1;
                     for (k, p) in patch.coefs().iter().enumerate() {
                         let expected =
@@ -51,8 +51,8 @@ fn splines_keep_the_corners_of_bi_5_rings() {
                     }
                     let which = square * split * split + (split - 1) * (i * split + j);
                     let [a, b] = [i as f64, j as f64];
-                    let found = rings.patch(ring, 0, which).jet(a, b);
-                    let exact = quintic.patch(ring, 0, square).jet(a, b);
+                    let found = rings.patch(ring, 0, which).unwrap().jet(a, b);
+                    let exact = quintic.patch(ring, 0, square).unwrap().jet(a, b);
                     let h = split as f64;
                     for k in 0..3 {
                         assert!((found.p[k] - exact.p[k]).abs() < TOLERANCE);
@@ -83,7 +83,7 @@ fn curvature_is_continuous_with_bi_6_rings_and_bounded_with_the_others() {
                     (0..n).flat_map(|s| (0..=8).flat_map(move |i| (0..=8).map(move |j| (s, i, j))));
                 grid.filter(|&(_, i, j)| i.max(j) > 4)
                     .map(|(s, i, j)| {
-                        rings.eval(s, f64::from(i) * h / 8.0, f64::from(j) * h / 8.0).mean
+                        rings.eval(s, f64::from(i) * h / 8.0, f64::from(j) * h / 8.0).unwrap().mean
                     })
                     .fold(0.0_f64, |most, mean| most.max((mean - center).abs()))
             };

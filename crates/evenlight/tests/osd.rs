@@ -202,7 +202,7 @@ fn may_be_irregular(
     let is_quad = |f: FaceId| topology.faces().corners(f).len() == 4;
     topology.is_boundary(vertex)
         || topology.valence(vertex) != 4
-        || !topology.ring(vertex).all(|h| is_quad(topology.face(h)))
+        || !topology.ring(vertex).all(|h| is_quad(topology.get(h).unwrap().face()))
         || tags.corners.iter().any(|corner| corner.vertex == vertex)
         || tags.creases.iter().any(|crease| crease.edge.contains(&vertex))
 }

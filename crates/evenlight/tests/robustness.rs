@@ -195,7 +195,7 @@ fn is_watertight(surface: &Surface, seed: u64) {
     assert!(edges.values().all(|&count| count == 1), "seed {seed}: an edge twice in one direction");
     let single = edges.keys().filter(|&&[a, b]| !edges.contains_key(&[b, a])).count();
     let topology = surface.topology();
-    let has_surface = |h| !surface.is_omitted(topology.face(h));
+    let has_surface = |h| !surface.is_omitted(topology.get(h).unwrap().face());
     let ends = topology
         .half_edges()
         .filter(|&h| has_surface(h) && !topology.twin(h).is_some_and(has_surface));

@@ -132,7 +132,10 @@ fn reference_nets(n: usize) -> Vec<(&'static str, CNet)> {
 
 fn energy(net: &CNet, scheme: SchemeKind, rings: usize) -> f64 {
     let surface = Rings::from_cnet(net, scheme, RuleSet::Generated).expect("there are rules");
-    (0..rings).flat_map(|ring| surface.patches(ring)).map(|patch| shape_energy(&patch)).sum()
+    (0..rings)
+        .flat_map(|ring| surface.patches(ring).unwrap())
+        .map(|patch| shape_energy(&patch))
+        .sum()
 }
 
 fn ratios(n: usize, scheme: SchemeKind, rings: usize) -> Vec<(&'static str, f64)> {
@@ -224,7 +227,7 @@ fn fair_schemes_have_the_energies_of_the_specification() {
     ];
     let energy = |net: &CNet, scheme: SchemeKind| -> f64 {
         let surface = Rings::from_cnet(net, scheme, RuleSet::Generated).expect("there are rules");
-        let patches = (0..6).flat_map(|ring| surface.patches(ring));
+        let patches = (0..6).flat_map(|ring| surface.patches(ring).unwrap());
         patches.map(|patch| energy_by_differences(&patch)).sum()
     };
     for (k, n) in [3, 5, 6, 7, 8, 9, 10].into_iter().enumerate() {

@@ -63,7 +63,7 @@ fn every_face_of_a_sharp_cube_has_its_own_normal() {
         let lens = [mesh.gauss.len(), mesh.mean.len(), mesh.origins.len()];
         assert_eq!(lens, [mesh.normals.len(); 3]);
         for (t, _, side) in corners(&mesh) {
-            let face = mesh.parametric_triangle(t).quad.0 as usize;
+            let face = mesh.parametric_triangle(t).unwrap().quad.0 as usize;
             let normal =
                 [[0, 0, -1], [0, 0, 1], [0, -1, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0]][face];
             assert!(norm(sub(mesh.normals[side as usize], normal.map(f64::from))) < 1e-15);
@@ -106,8 +106,8 @@ fn every_corner_has_the_normal_of_its_own_quad() {
     for (name, surface) in features() {
         let mesh = tessellate(&surface, 4).unwrap();
         for (t, k, side) in corners(&mesh) {
-            assert_eq!(mesh.vertex_of_side(side), mesh.triangles[t][k]);
-            let place = mesh.parametric_triangle(t);
+            assert_eq!(mesh.vertex_of_side(side), Some(mesh.triangles[t][k]));
+            let place = mesh.parametric_triangle(t).unwrap();
             let [u, v] = place.uv[k];
             let own = surface.eval(place.quad, u, v).unwrap();
             let normal = mesh.normals[side as usize];
@@ -150,7 +150,7 @@ fn sides_change_at_sharp_edges_only() {
 
 /// Whether an edge of triangle `t` is on an infinitely sharp edge of the cage.
 fn lies_on_sharp_edge(surface: &Surface, mesh: &TriangleMesh, edge: [u32; 2], t: usize) -> bool {
-    let place = mesh.parametric_triangle(t);
+    let place = mesh.parametric_triangle(t).unwrap();
     let uv = edge.map(|v| place.uv[mesh.triangles[t].iter().position(|&w| w == v).unwrap()]);
     let (face, corner) = surface.face_of(place.quad).unwrap();
     let topology = surface.topology();
@@ -162,7 +162,7 @@ fn lies_on_sharp_edge(surface: &Surface, mesh: &TriangleMesh, edge: [u32; 2], t:
         [[_, 1.0], [_, 1.0]] if n == 4 => 2,
         _ => return false,
     };
-    surface.is_infinitely_sharp(topology.half_edge(face, side))
+    surface.is_infinitely_sharp(topology.half_edge_at(face, side).unwrap().id())
 }
 
 /// A wheel of `2 f` quads around the origin, folded along the sharp y axis: on the left in the
@@ -193,7 +193,7 @@ fn both_sides_of_a_folded_plane_are_flat() {
         // The origin, and 4 vertices on each of the two sharp edges.
         assert_eq!(mesh.side_vertices.len(), 1 + 4 + 4);
         for (t, _, side) in corners(&mesh) {
-            let is_left = mesh.parametric_triangle(t).quad.0 < f;
+            let is_left = mesh.parametric_triangle(t).unwrap().quad.0 < f;
             let normal = unit([if is_left { -1.0 } else { 1.0 }, 0.0, 1.0]);
             assert!(norm(sub(mesh.normals[side as usize], normal)) < 1e-12, "{f} faces");
             assert!(
@@ -247,7 +247,7 @@ fn texture_coordinates_come_first_by_name_and_colours_by_name() {
 fn split_vertices_have_one_value_of_everything() {
     let (mesh, CornerChannels { uv_sets, color }) = painted();
     let channels: Vec<_> = uv_sets.iter().chain(&color).collect();
-    let split = mesh.split(&channels);
+    let split = mesh.split(&channels).unwrap();
     let key = |v: usize| (split.sides[v], split.values.iter().map(|of| of[v]).collect::<Vec<_>>());
     let keys: HashSet<_> = (0..split.sides.len()).map(key).collect();
     assert_eq!(keys.len(), split.sides.len());
@@ -262,7 +262,7 @@ fn split_vertices_have_one_value_of_everything() {
     assert!(is_used.iter().all(|&used| used));
     // All seams are on sharp edges, but not all sharp edges are seams.
     assert_eq!(split.sides.len(), mesh.normals.len());
-    assert_eq!(mesh.split(&[]).triangles, mesh.sides());
+    assert_eq!(mesh.split(&[]).unwrap().triangles, mesh.sides());
 }
 
 /// Seams without folds, and folds without seams.
@@ -274,10 +274,10 @@ fn vertices_are_split_along_seams_of_smooth_surfaces_too() {
     let mesh = tessellate(&surface, 4).unwrap();
     let channels = mesh.corner_channels(&surface);
     assert!(!mesh.is_folded());
-    let split = mesh.split(&channels.uv_sets.iter().collect::<Vec<_>>());
+    let split = mesh.split(&channels.uv_sets.iter().collect::<Vec<_>>()).unwrap();
     // 14 values at 8 vertices, and 3 vertices along each of 7 seams.
     assert_eq!(split.sides.len(), mesh.positions.len() + (14 - 8) + 7 * 3);
-    assert_eq!(mesh.split(&[&channels.uv_sets[1]]).triangles, mesh.triangles);
+    assert_eq!(mesh.split(&[&channels.uv_sets[1]]).unwrap().triangles, mesh.triangles);
 }
 
 /// What a reader of glTF finds, in 32 bits.
@@ -509,7 +509,7 @@ fn a_seam_of_a_quarter_beside_a_distant_island_remains() {
     let surface = Surface::build(cage, SurfaceOptions::default()).unwrap();
     let mesh = tessellate(&surface, 4).unwrap();
     let channels = mesh.corner_channels(&surface);
-    let split = mesh.split(&[&channels.uv_sets[0]]);
+    let split = mesh.split(&[&channels.uv_sets[0]]).unwrap();
     assert_eq!(mesh.positions.len(), 2 * 25 - 5 + 25);
     assert_eq!(split.sides.len(), 3 * 25, "the five vertices on the seam are two each");
 }

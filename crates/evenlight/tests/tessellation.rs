@@ -129,7 +129,7 @@ fn every_vertex_lies_where_each_of_its_triangles_says() {
         let tolerance = 1e-12 * size(&mesh);
         assert_eq!(mesh.parametric_triangles().count(), mesh.triangles.len());
         for (t, parametric) in mesh.parametric_triangles().enumerate() {
-            assert_eq!(parametric, mesh.parametric_triangle(t));
+            assert_eq!(mesh.parametric_triangle(t), Some(parametric));
             let ParametricTriangle { quad, uv } = parametric;
             for (p, [u, v]) in corners(&mesh, t).into_iter().zip(uv) {
                 let q = surface.eval(quad, u, v).unwrap().jet.p;
@@ -186,7 +186,7 @@ fn beside_omitted_face(
     edge: (u32, u32),
     triangle: usize,
 ) -> bool {
-    let ParametricTriangle { quad, uv } = mesh.parametric_triangle(triangle);
+    let ParametricTriangle { quad, uv } = mesh.parametric_triangle(triangle).unwrap();
     let parameters = |v| uv[mesh.triangles[triangle].iter().position(|&w| w == v).unwrap()];
     let side = match (parameters(edge.0), parameters(edge.1)) {
         ([_, 0.0], [_, 0.0]) => 0,
@@ -204,7 +204,7 @@ fn beside_omitted_face(
 
 fn has_surface_on_one_side(surface: &Surface, face: FaceId, side: usize) -> bool {
     let topology = surface.topology();
-    let behind = topology.twin(topology.half_edge(face, side)).map(|h| topology.face(h));
+    let behind = topology.half_edge_at(face, side).unwrap().twin().map(|h| h.face());
     !surface.is_omitted(face) && behind.is_none_or(|f| surface.is_omitted(f))
 }
 

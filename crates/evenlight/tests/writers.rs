@@ -191,7 +191,7 @@ fn placed(role: Role, z: f64) -> PlacedPatch {
     let mut place = surface.patch_places(0).next().unwrap();
     place.role = role;
     let coefs = vec![[0.0, 0.0, z], [0.0, 1.0, z], [1.0, 0.0, z], [1.0, 1.0, z]];
-    PlacedPatch { place, patch: Patch::new([1, 1], coefs) }
+    PlacedPatch { place, patch: Patch::new([1, 1], coefs).unwrap() }
 }
 
 #[test]

@@ -132,7 +132,7 @@ impl Around<'_> {
     }
 
     fn eval(self, s: usize, a: f64, b: f64) -> SurfacePoint {
-        self.cap.eval(self.rings, s, [a, b])
+        self.cap.eval_as(self.rings, s, [a, b])
     }
 
     /// The largest absolute principal curvature; 0 where it is noise.
@@ -168,7 +168,7 @@ impl Around<'_> {
         let at = |s: usize, (joint, t): (usize, f64)| {
             let along = ((t * m as f64) as usize).min(m - 1);
             let x = joint as f64 / m as f64;
-            let eval = |which, at| self.cap.eval_on(self.rings, s, which, at);
+            let eval = |which, at| self.cap.eval_in_patch(self.rings, s, which, at);
             let across_a = [joint - 1, joint].map(|k| eval(k * m + along, [x, t]));
             let across_b = [joint - 1, joint].map(|k| eval(along * m + k, [t, x]));
             [across_a, across_b].map(|[p, q]| Defect::between(&p, &q))
@@ -180,7 +180,7 @@ impl Around<'_> {
     fn ring(self) -> Defect {
         let at = |s: usize, hole: [f64; 2]| {
             let [a, b] = self.rings.out_of_hole(self.cap.rings(), hole);
-            Defect::between(&self.eval(s, hole[0], hole[1]), &self.rings.eval(s, a, b))
+            Defect::between(&self.eval(s, hole[0], hole[1]), &self.rings.eval_as(s, a, b))
         };
         let edges = |t: f64| [[1.0, t], [t, 1.0]];
         let points = self.along().flat_map(edges).collect::<Vec<_>>();

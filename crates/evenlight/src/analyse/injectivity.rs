@@ -23,8 +23,12 @@ const MAX_DEPTH: usize = 8;
 /// has some hundred terms of either sign.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether the Jacobian of (x,y) of `patch` is proved to be positive on the whole unit square.
+/// Whether the Jacobian of (x,y) of `patch` is proved to be positive on the whole unit square. Not so
+/// if it is of degree 0 in a parameter: then it has no area.
 pub fn jacobian_is_positive(patch: &Patch) -> bool {
+    if patch.degree().contains(&0) {
+        return false;
+    }
     let jacobian = Polynomial::jacobian(patch);
     let largest = jacobian.coefs.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     jacobian.is_above(ROUNDING * largest, MAX_DEPTH)
@@ -136,7 +140,7 @@ mod tests {
     fn stretched(f: f64) -> Patch {
         let y = [0.0, 0.125, 0.25 + f];
         let coef = |i: usize, j: usize| [i as f64 / 2.0, y[j], 0.0];
-        Patch::new([2, 2], (0..3).flat_map(|i| (0..3).map(move |j| coef(i, j))).collect())
+        Patch::of([2, 2], (0..3).flat_map(|i| (0..3).map(move |j| coef(i, j))).collect())
     }
 
     #[test]
@@ -152,7 +156,7 @@ mod tests {
         let dip = |c: f64| {
             let y = [0.0, 1.0, 2.0 - c / 2.0, 3.0 - c / 2.0].map(|y| y / 3.0);
             let coef = |i: usize, j: usize| [i as f64 / 3.0, y[j], 0.0];
-            Patch::new([3, 3], (0..4).flat_map(|i| (0..4).map(move |j| coef(i, j))).collect())
+            Patch::of([3, 3], (0..4).flat_map(|i| (0..4).map(move |j| coef(i, j))).collect())
         };
         assert!(jacobian_is_positive(&dip(3.9)));
         assert!(!jacobian_is_positive(&dip(4.1)));
@@ -161,7 +165,7 @@ mod tests {
     #[test]
     fn jacobian_coefficients_agree_with_evaluation() {
         let p = |i: usize, j: usize| [(i as f64 + 0.3 * j as f64).sin(), (j as f64).exp(), 0.0];
-        let patch = Patch::new([4, 4], (0..25).map(|k| p(k / 5, k % 5)).collect());
+        let patch = Patch::of([4, 4], (0..25).map(|k| p(k / 5, k % 5)).collect());
         let (u, v) = (0.3, 0.8);
         let jacobian = Polynomial::jacobian(&patch);
         let bernstein = |d: usize, i: usize, t: f64| {

@@ -106,7 +106,7 @@ fn guided_moduli(n: usize, lambda: f64) -> Vec<f64> {
     let mut power = lambda * lambda;
     let eigenvalues = (3..=MAX_TOTAL_DEGREE).map(|degree| {
         power *= lambda;
-        vec![power; multiplicity(n, degree)]
+        vec![power; multiplicity(n, degree).unwrap_or(0)]
     });
     eigenvalues.collect::<Vec<_>>().concat()
 }
@@ -162,7 +162,7 @@ fn characteristic_ring(rules: &Rules, subdominant: &Subdominant) -> Vec<Patch> {
     let net = subdominant.characteristic_net();
     let refined = rules.refine(&net);
     (0..rules.patches_per_sector())
-        .map(|which| Patch::new([rules.degree; 2], rules.patch(0, which, &net, &refined)))
+        .map(|which| Patch::of([rules.degree; 2], rules.patch(0, which, &net, &refined)))
         .collect()
 }
 

@@ -3,9 +3,10 @@
 use std::sync::OnceLock;
 
 use super::guide::{HomogeneousGuide, MAX_TOTAL_DEGREE};
-use super::scalar::ScalarJet;
+use super::{jet_of_patch, value_alone};
 use crate::net::{CNET_NODES, CNet};
-use crate::rings::{power, ring_of, scaled_up};
+use crate::patch::Jet;
+use crate::rings::{MAX_RINGS, power, ring_of, scaled_up};
 use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 
 /// The eigenfunctions of a guided scheme at one valence \[KP18-Guided, Section 5\].
@@ -30,8 +31,9 @@ use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 /// let f = Eigenfunctions::new(SchemeKind::Guided5, 5).ok_or("guided5 has rules for n = 5")?;
 /// assert_eq!(f.len(), 17 * 5 + 5 + 6);
 /// let cubic = f.of_degree(3).start;
-/// let [outer, inner] = [0.75, 0.375].map(|a| f.eval(cubic, 2, a, 0.4 * a).value);
-/// assert!((inner - f.lambda().powi(3) * outer).abs() < 1e-15);
+/// let outer = f.eval(cubic, 2, 0.75, 0.3).ok_or("there is a sector 2")?;
+/// let inner = f.eval(cubic, 2, 0.375, 0.15).ok_or("there is a sector 2")?;
+/// assert!((inner.p[0] - f.lambda().powi(3) * outer.p[0]).abs() < 1e-15);
 /// # Ok::<(), &str>(())
 /// ```
 #[derive(Debug)]
@@ -61,7 +63,7 @@ impl Eigenfunctions {
         kind.guided_degree()?;
         let rules = kind.rules(contraction, valence)?;
         let lambda = rules.guide.as_ref()?.lambda;
-        let of_degree = |degree| HomogeneousGuide::all(valence, degree);
+        let of_degree = |degree| HomogeneousGuide::all_of(valence, degree);
         let guides: Vec<_> = (0..=MAX_TOTAL_DEGREE).flat_map(of_degree).collect();
         let rings = guides.iter().map(|_| OnceLock::new()).collect();
         Some(Self { kind, rules, lambda, guides, rings })
@@ -93,29 +95,36 @@ impl Eigenfunctions {
         self.guides.is_empty()
     }
 
-    /// The guide that function `k` follows: its degree s, mode and parity.
-    ///
-    /// # Panics
-    ///
-    /// If `k` is not below [`Eigenfunctions::len`]; so do all methods that take a `k`.
-    pub fn guide(&self, k: usize) -> &HomogeneousGuide {
-        &self.guides[k]
+    /// The guide that function `k` follows: its degree s, mode and parity. `None` if `k` is not below
+    /// [`Eigenfunctions::len`]; so do all methods that take a `k`.
+    pub fn guide(&self, k: usize) -> Option<&HomogeneousGuide> {
+        self.guides.get(k)
+    }
+
+    /// The guides of all functions.
+    pub(super) fn guides(&self) -> &[HomogeneousGuide] {
+        &self.guides
     }
 
     /// The functions of eigenvalue lambda^`degree`.
     pub fn of_degree(&self, degree: usize) -> std::ops::Range<usize> {
         let below = |degree: usize| self.guides.partition_point(|g| g.degree() < degree);
-        below(degree)..below(degree + 1)
+        below(degree)..below(degree.saturating_add(1))
     }
 
     /// The eigenvalue of function `k`, lambda^s.
-    pub fn eigenvalue(&self, k: usize) -> f64 {
+    pub fn eigenvalue(&self, k: usize) -> Option<f64> {
+        (k < self.len()).then(|| self.eigenvalue_of(k))
+    }
+
+    /// The eigenvalue of a function that there is.
+    pub(super) fn eigenvalue_of(&self, k: usize) -> f64 {
         power(self.lambda, self.guides[k].degree())
     }
 
     /// What a function is multiplied by from ring 0 to ring `ring`.
     fn factor(&self, k: usize, ring: usize) -> f64 {
-        power(self.eigenvalue(k), ring)
+        power(self.eigenvalue_of(k), ring)
     }
 
     /// The bi-degree of the patches.
@@ -129,17 +138,30 @@ impl Eigenfunctions {
     }
 
     /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; as in
-    /// [`Rings::patch_domain`](crate::rings::Rings::patch_domain).
-    pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
+    /// [`Rings::patch_domain`](crate::rings::Rings::patch_domain). `None` if there is no such patch.
+    pub fn patch_domain(&self, which: usize) -> Option<[[f64; 2]; 2]> {
+        (which < self.patches_per_sector()).then(|| self.domain(which))
+    }
+
+    /// [`Eigenfunctions::patch_domain`] of a patch that there is.
+    pub(super) fn domain(&self, which: usize) -> [[f64; 2]; 2] {
         self.rules.patch_domain(which)
     }
 
-    /// The BB coefficients of function `k` on a patch, index along b fastest.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such sector or patch.
-    pub fn coefs(&self, k: usize, ring: usize, sector: usize, which: usize) -> Vec<f64> {
+    /// The BB coefficients of function `k` on a patch, index along b fastest; `None` if there is no
+    /// such function, sector or patch, or the ring is not below [`MAX_RINGS`].
+    pub fn coefs(&self, k: usize, ring: usize, sector: usize, which: usize) -> Option<Vec<f64>> {
+        let is_known = k < self.len() && self.has_patch(ring, sector, which);
+        is_known.then(|| self.coefs_on(k, ring, sector, which))
+    }
+
+    /// Whether there is such a patch.
+    fn has_patch(&self, ring: usize, sector: usize, which: usize) -> bool {
+        ring < MAX_RINGS && sector < self.valence() && which < self.patches_per_sector()
+    }
+
+    /// The BB coefficients of a function on a patch that there is.
+    pub(crate) fn coefs_on(&self, k: usize, ring: usize, sector: usize, which: usize) -> Vec<f64> {
         let factor = self.factor(k, ring);
         self.first_ring(k, sector, which).iter().map(|c| factor * c).collect()
     }
@@ -147,22 +169,21 @@ impl Eigenfunctions {
     /// The coefficients on a patch of ring 0.
     fn first_ring(&self, k: usize, sector: usize, which: usize) -> &[f64] {
         let per_sector = self.patches_per_sector();
-        assert!(sector < self.valence() && which < per_sector, "patch {which}, sector {sector}");
         let size = (self.degree() + 1) * (self.degree() + 1);
         let first = (sector * per_sector + which) * size;
         &self.rings[k].get_or_init(|| self.ring_of_function(k))[first..first + size]
     }
 
     /// Value and derivatives by a and b of function `k` at (a,b) of sector `sector`. At the centre
-    /// (0,0) there is only the value, the derivatives are NaN, but for the constant.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such sector or a, b are not from 0 to 1.
-    pub fn eval(&self, k: usize, sector: usize, a: f64, b: f64) -> ScalarJet {
-        assert!(sector < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
+    /// (0,0) there is only the value, the derivatives are NaN, but for the constant. `None` if there
+    /// is no such function or sector, or a, b are not from 0 to 1.
+    pub fn eval(&self, k: usize, sector: usize, a: f64, b: f64) -> Option<Jet<1>> {
+        let is_inside = [a, b].iter().all(|x| (0.0..=1.0).contains(x));
+        if k >= self.len() || sector >= self.valence() || !is_inside {
+            return None;
+        }
         if a.max(b) == 0.0 {
-            return at_center(self.guides[k].degree());
+            return Some(at_center(self.guides[k].degree()));
         }
         let sigma = self.rules.sigma();
         let ring = ring_of(a.max(b), sigma);
@@ -171,7 +192,7 @@ impl Eigenfunctions {
     }
 
     /// Like [`Eigenfunctions::eval`], but from a given patch; the polynomial is extrapolated if
-    /// (a,b) is not in the patch.
+    /// (a,b) is not in the patch. `None` if there is no such function or patch.
     pub fn eval_on(
         &self,
         k: usize,
@@ -179,14 +200,17 @@ impl Eigenfunctions {
         sector: usize,
         which: usize,
         [a, b]: [f64; 2],
-    ) -> ScalarJet {
+    ) -> Option<Jet<1>> {
+        if k >= self.len() || !self.has_patch(ring, sector, which) {
+            return None;
+        }
         let (corner, size) = self.rules.patch_square(which);
         let sigma = self.rules.sigma();
         let own = |x: f64, k: usize| (scaled_up(x, ring, sigma) - corner[k]) / size[k];
         let coefs = self.first_ring(k, sector, which);
-        let jet = ScalarJet::of_patch(self.degree(), coefs, own(a, 0), own(b, 1));
+        let jet = jet_of_patch(self.degree(), coefs, [own(a, 0), own(b, 1)]);
         let speed = power(1.0 / sigma, ring);
-        jet.scaled(self.factor(k, ring), size.map(|size| speed / size))
+        Some(jet.scaled(self.factor(k, ring), size.map(|size| speed / size)))
     }
 
     /// The patch of the outermost ring that has (a,b).
@@ -203,32 +227,32 @@ impl Eigenfunctions {
     /// The limit point if node `node` of a c-net is 1 and the others 0, and the nodes of all
     /// sectors relative to it.
     pub(super) fn net_of_node(&self, node: usize) -> (f64, Vec<f64>) {
-        let sectors = vec![[[0.0; 3]; CNET_NODES]; self.valence()];
-        let mut cnet = CNet { center: [0.0; 3], sectors };
+        let sectors = vec![[[0.0]; CNET_NODES]; self.valence()];
+        let mut cnet = CNet { center: [0.0], sectors };
         match cnet.sectors.get_mut(node / CNET_NODES) {
-            Some(sector) => sector[node % CNET_NODES][0] = 1.0,
-            None => cnet.center[0] = 1.0,
+            Some(sector) => sector[node % CNET_NODES] = [1.0],
+            None => cnet.center = [1.0],
         }
         let limit = self.kind.limit_point(&cnet);
         let net = self.rules.guided_net(&cnet.relative_to(limit)).unwrap_or_default();
-        (limit[0], net.iter().map(|p| p[0]).collect())
+        (limit[0], net.into_flattened())
     }
 
-    /// The nodes of function `k` in front of ring 0, in the x coordinate. For the constant, which
-    /// nets leave out, all are zero.
-    pub(super) fn net(&self, k: usize) -> Vec<[f64; 3]> {
+    /// The nodes of function `k` in front of ring 0. For the constant, which nets leave out, all are
+    /// zero.
+    pub(super) fn net(&self, k: usize) -> Vec<[f64; 1]> {
         let (rules, guide) = (&self.rules, &self.guides[k]);
         let monomials = guide_monomials();
         let border = rules.control_nodes_per_sector();
         let mut net = Vec::with_capacity(rules.num_nodes());
         for sector in 0..rules.valence {
-            net.extend(std::iter::repeat_n([0.0; 3], border));
-            let coef = |&(i, j): &(usize, usize)| [guide.coefficient(sector, i, j), 0.0, 0.0];
+            net.extend(std::iter::repeat_n([0.0], border));
+            let coef = |&(i, j): &(usize, usize)| [guide.coefficient(sector, i, j)];
             net.extend(monomials.iter().map(coef));
         }
         // The guide decides on the border of the next ring: the eigenvector has it already.
         let next = rules.refine(&net);
-        let eigenvalue = self.eigenvalue(k);
+        let eigenvalue = self.eigenvalue_of(k);
         let border_nodes = (0..net.len()).filter(|at| at % rules.nodes_per_sector < border);
         border_nodes.for_each(|at| net[at][0] = next[at][0] / eigenvalue);
         net
@@ -247,9 +271,8 @@ impl Eigenfunctions {
 }
 
 /// The value at the centre of an eigenfunction of degree s.
-fn at_center(degree: usize) -> ScalarJet {
-    let [value, rest] = if degree == 0 { [1.0, 0.0] } else { [0.0, f64::NAN] };
-    ScalarJet { value, du: rest, dv: rest, duu: rest, duv: rest, dvv: rest }
+fn at_center(degree: usize) -> Jet<1> {
+    if degree == 0 { Jet { p: [1.0], ..Jet::default() } } else { value_alone(0.0) }
 }
 
 #[cfg(test)]
@@ -266,7 +289,7 @@ mod tests {
                     let net = functions.net(k);
                     let refined = functions.rules.refine(&net);
                     let largest = net.iter().map(|p| p[0].abs()).fold(0.0, f64::max);
-                    let eigenvalue = functions.eigenvalue(k);
+                    let eigenvalue = functions.eigenvalue_of(k);
                     for (old, new) in net.iter().zip(&refined) {
                         let error = (new[0] / eigenvalue - old[0]).abs();
                         assert!(error < 1e-13 * largest, "{} n = {n}, {k}", kind.name());

@@ -37,6 +37,7 @@
 use std::f64::consts::PI;
 
 use crate::angle::{cosine, sector_cosine, sine};
+use crate::net::MAX_VALENCE;
 
 /// The degree of a guide in u and in v.
 pub(crate) const GUIDE_DEGREE: usize = 5;
@@ -71,13 +72,14 @@ pub struct HomogeneousGuide {
 impl HomogeneousGuide {
     /// All homogeneous guides of total degree `degree`, 0 to [`MAX_TOTAL_DEGREE`], at valence n = 3
     /// or n >= 5: mode by mode, an even one before its odd partner. They are orthogonal in the
-    /// sum over all sectors of a_ij b_ij; the largest modulus of an x_ij is 1.
-    ///
-    /// # Panics
-    ///
-    /// If the valence is below 3.
-    pub fn all(valence: usize, degree: usize) -> Vec<Self> {
-        assert!(valence >= 3, "a guide has three sectors or more");
+    /// sum over all sectors of a_ij b_ij; the largest modulus of an x_ij is 1. There is none of a
+    /// higher degree. `None` if the valence is not from 3 to 1024.
+    pub fn all(valence: usize, degree: usize) -> Option<Vec<Self>> {
+        (3..=MAX_VALENCE).contains(&valence).then(|| Self::all_of(valence, degree))
+    }
+
+    /// [`HomogeneousGuide::all`] at a valence that is known to be allowed.
+    pub(super) fn all_of(valence: usize, degree: usize) -> Vec<Self> {
         let of_mode = |mode| {
             let solutions = solutions(valence, degree, mode).into_iter();
             solutions.flat_map(move |x| Self::of_solution(valence, degree, mode, x))
@@ -119,7 +121,7 @@ impl HomogeneousGuide {
     pub fn coefficient(&self, sector: usize, i: usize, j: usize) -> f64 {
         let found = exponents(self.degree).position(|exponent| exponent == (i, j));
         found.map_or(0.0, |at| {
-            let [cos, sin] = turn(self.valence, self.mode * sector);
+            let [cos, sin] = turn(self.valence, self.mode * (sector % self.valence));
             let [x, y] = self.coefs[at];
             match self.parity {
                 Parity::Even => cos * x - sin * y,
@@ -129,10 +131,10 @@ impl HomogeneousGuide {
     }
 }
 
-/// The number of homogeneous guides of total degree `degree` at valence n >= 3: the multiplicity of
-/// the eigenvalue lambda^degree, found by solving the conditions.
-pub fn multiplicity(valence: usize, degree: usize) -> usize {
-    HomogeneousGuide::all(valence, degree).len()
+/// The number of homogeneous guides of total degree `degree`: the multiplicity of the eigenvalue
+/// lambda^degree, found by solving the conditions. `None` if the valence is not from 3 to 1024.
+pub fn multiplicity(valence: usize, degree: usize) -> Option<usize> {
+    HomogeneousGuide::all(valence, degree).map(|guides| guides.len())
 }
 
 /// (i,j) with i + j = `degree` and i, j <= 5, by falling i.

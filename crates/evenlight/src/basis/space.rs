@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use super::eigen::Eigenfunctions;
 use super::layout::{Combination, LAYERS, Layout};
-use super::scalar::ScalarJet;
+use super::{jet_of_patch, value_alone};
 use crate::net::CNET_NODES;
-use crate::rings::{power, ring_of, scaled_up};
+use crate::patch::Jet;
+use crate::rings::{MAX_RINGS, power, ring_of, scaled_up};
 use crate::scheme::{Contraction, SchemeKind, guide_monomials};
 use crate::sparse::Stencils;
 
@@ -41,9 +42,11 @@ use crate::sparse::Stencils;
 ///
 /// // Some function of V_1, the same one in V_2.
 /// let f: Vec<f64> = (0..coarse.dim()).map(|k| (k % 7) as f64).collect();
-/// let (fine, g) = (coarse.refined(), coarse.refinement().apply_to_numbers(&f)?);
-/// let [a, b] = [coarse.eval_sum(&f, 2, 0.2, 0.1), fine.eval_sum(&g, 2, 0.2, 0.1)];
-/// assert!((a.value - b.value).abs() < 1e-12 && (a.duv - b.duv).abs() < 1e-9);
+/// let fine = coarse.refined().ok_or("there may be more rings")?;
+/// let g = coarse.refinement().apply_to_numbers(&f)?;
+/// let a = coarse.eval_sum(&f, 2, 0.2, 0.1).ok_or("there is a sector 2")?;
+/// let b = fine.eval_sum(&g, 2, 0.2, 0.1).ok_or("there is a sector 2")?;
+/// assert!((a.p[0] - b.p[0]).abs() < 1e-12 && (a.duv[0] - b.duv[0]).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -127,14 +130,14 @@ pub struct Element {
 
 impl Element {
     /// The jets of all functions at (u,v) of the patch, derived by u and v, from 0 to 1.
-    pub fn eval(&self, u: f64, v: f64) -> Vec<ScalarJet> {
-        self.coefs.iter().map(|b| ScalarJet::of_patch(self.degree, b, u, v)).collect()
+    pub fn eval(&self, u: f64, v: f64) -> Vec<Jet<1>> {
+        self.coefs.iter().map(|b| jet_of_patch(self.degree, b, [u, v])).collect()
     }
 }
 
 impl RefinableSpace {
-    /// The space V_m, m = `rings`, of `guided5` or `guided6` at `valence`; `None` for other schemes
-    /// and valences without rules.
+    /// The space V_m, m = `rings`, of `guided5` or `guided6` at `valence`; `None` for other schemes,
+    /// valences without rules, and more than [`MAX_RINGS`] rings.
     ///
     /// The splines of `guided3` and `guided4` are made of bi-5 rings, ring by ring: they have no
     /// functions of their own.
@@ -150,16 +153,21 @@ impl RefinableSpace {
         valence: usize,
         rings: usize,
     ) -> Option<Self> {
-        let degree = kind.guided_degree().filter(|&degree| degree >= 5)?;
+        let degree = kind.guided_degree().filter(|&degree| degree >= 5 && rings <= MAX_RINGS)?;
         let eigen = Eigenfunctions::with_contraction(kind, contraction, valence)?;
         let layout = Layout::new(degree, eigen.sigma());
         let patches = [0, 1, 2].map(|square| sources(&eigen, layout, square));
         Some(Self { common: Arc::new(Common { eigen, layout, patches }), rings })
     }
 
-    /// The space V_(m+1).
-    pub fn refined(&self) -> Self {
-        Self { common: Arc::clone(&self.common), rings: self.rings + 1 }
+    /// The space V_(m+1); `None` if there would be more than [`MAX_RINGS`] rings.
+    pub fn refined(&self) -> Option<Self> {
+        (self.rings < MAX_RINGS).then(|| self.with_rings(self.rings + 1))
+    }
+
+    /// The space V_m of so many rings.
+    fn with_rings(&self, rings: usize) -> Self {
+        Self { common: Arc::clone(&self.common), rings }
     }
 
     /// The valence.
@@ -202,13 +210,13 @@ impl RefinableSpace {
         &self.common.eigen
     }
 
-    /// What function `k` belongs to.
-    ///
-    /// # Panics
-    ///
-    /// If `k` is not below [`RefinableSpace::dim`].
-    pub fn kind(&self, k: usize) -> FunctionKind {
-        assert!(k < self.dim(), "function {k} of {}", self.dim());
+    /// What function `k` belongs to; `None` if `k` is not below [`RefinableSpace::dim`].
+    pub fn kind(&self, k: usize) -> Option<FunctionKind> {
+        (k < self.dim()).then(|| self.kind_of(k))
+    }
+
+    /// What a function that there is belongs to.
+    fn kind_of(&self, k: usize) -> FunctionKind {
         let (border, ring) = (self.num_border_functions(), self.num_ring_functions());
         let of_level = self.common.layout.of_level();
         if k < border {
@@ -224,17 +232,13 @@ impl RefinableSpace {
         }
     }
 
-    /// Where function `k` is not zero.
-    ///
-    /// # Panics
-    ///
-    /// If `k` is not below [`RefinableSpace::dim`].
-    pub fn support(&self, k: usize) -> Support {
+    /// Where function `k` is not zero; `None` if `k` is not below [`RefinableSpace::dim`].
+    pub fn support(&self, k: usize) -> Option<Support> {
         let (n, layout) = (self.valence(), self.common.layout);
-        let (first_ring, last_ring, sector, slot) = match self.kind(k) {
+        let (first_ring, last_ring, sector, slot) = match self.kind(k)? {
             FunctionKind::Guide { .. } => {
                 let sectors = (0..n).collect();
-                return Support { first_ring: self.rings, last_ring: None, sectors };
+                return Some(Support { first_ring: self.rings, last_ring: None, sectors });
             }
             FunctionKind::Level { level, sector } => {
                 let first = self.level_number(level, sector, 0);
@@ -247,7 +251,7 @@ impl RefinableSpace {
         };
         let before = (sector + n - 1) % n;
         let sectors = if layout.is_on_line(slot) { vec![before, sector] } else { vec![sector] };
-        Support { first_ring, last_ring: Some(last_ring), sectors }
+        Some(Support { first_ring, last_ring: Some(last_ring), sectors })
     }
 
     /// The number of a function of `ring` or of the level of its hole, by its slot.
@@ -274,13 +278,15 @@ impl RefinableSpace {
         }
     }
 
-    /// The element of a patch: the functions that live on it and their BB coefficients.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such sector or patch.
-    pub fn element(&self, ring: usize, sector: usize, which: usize) -> Element {
-        assert!(sector < self.valence() && which < 3, "patch {which} of sector {sector}");
+    /// The element of a patch: the functions that live on it and their BB coefficients. `None` if
+    /// there is no such sector or patch, or the ring is not below [`MAX_RINGS`].
+    pub fn element(&self, ring: usize, sector: usize, which: usize) -> Option<Element> {
+        let is_known = ring < MAX_RINGS && sector < self.valence() && which < 3;
+        is_known.then(|| self.element_of(ring, sector, which))
+    }
+
+    /// The element of a patch that there is.
+    fn element_of(&self, ring: usize, sector: usize, which: usize) -> Element {
         let size = (self.degree() + 1) * (self.degree() + 1);
         let mut found: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
         let mut add = |function: usize, at: usize, w: f64| {
@@ -313,7 +319,7 @@ impl RefinableSpace {
 
     /// The coefficients of guide `k` on a patch of ring m or a later one.
     fn guide_coefs(&self, k: usize, ring: usize, sector: usize, which: usize) -> Vec<f64> {
-        let mut coefs = self.eigenfunctions().coefs(k, ring - self.rings, sector, which);
+        let mut coefs = self.eigenfunctions().coefs_on(k, ring - self.rings, sector, which);
         if ring == self.rings {
             let sources = coefs.iter_mut().zip(&self.common.patches[which]);
             sources.filter(|(_, s)| matches!(s, Source::Outer(_))).for_each(|(b, _)| *b = 0.0);
@@ -324,25 +330,29 @@ impl RefinableSpace {
     /// The part of a sector that a patch covers.
     fn domain(&self, ring: usize, which: usize) -> [[f64; 2]; 2] {
         let size = power(self.eigenfunctions().sigma(), ring);
-        self.eigenfunctions().patch_domain(which).map(|side| side.map(|x| size * x))
+        self.eigenfunctions().domain(which).map(|side| side.map(|x| size * x))
     }
 
     /// The BB coefficients on a patch of the sum of all functions times `values`, index along b
-    /// fastest.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such sector or patch, or not one value for each function.
+    /// fastest. `None` where [`RefinableSpace::element`] is, and if there is not one value for each
+    /// function.
     pub fn coefs_of_sum(
         &self,
         values: &[f64],
         ring: usize,
         sector: usize,
         which: usize,
-    ) -> Vec<f64> {
-        assert_eq!(values.len(), self.dim(), "one value for each function");
+    ) -> Option<Vec<f64>> {
+        if values.len() != self.dim() {
+            return None;
+        }
+        let element = self.element(ring, sector, which)?;
+        Some(self.sum_on(values, &element))
+    }
+
+    /// The BB coefficients of a sum on an element.
+    fn sum_on(&self, values: &[f64], element: &Element) -> Vec<f64> {
         let mut sum = vec![0.0; (self.degree() + 1) * (self.degree() + 1)];
-        let element = self.element(ring, sector, which);
         for (&function, coefs) in element.functions.iter().zip(&element.coefs) {
             sum.iter_mut().zip(coefs).for_each(|(sum, b)| *sum += values[function] * b);
         }
@@ -352,29 +362,26 @@ impl RefinableSpace {
     /// The sum of all functions times `values` at (a,b) of a sector, with its derivatives by a and
     /// b. At the centre (0,0) it has only its value; the derivatives are NaN.
     ///
-    /// Many points on one patch are cheaper with [`RefinableSpace::element`].
-    ///
-    /// # Panics
-    ///
-    /// If there is no such sector, a, b are not from 0 to 1, or there is not one value for each
-    /// function.
-    pub fn eval_sum(&self, values: &[f64], sector: usize, a: f64, b: f64) -> ScalarJet {
-        self.eval_with(sector, [a, b], values[self.first_guide()], |ring, which| {
-            self.coefs_of_sum(values, ring, sector, which)
+    /// `None` if there is no such sector, a, b are not from 0 to 1, or there is not one value for each
+    /// function. Many points on one patch are cheaper with [`RefinableSpace::element`].
+    pub fn eval_sum(&self, values: &[f64], sector: usize, a: f64, b: f64) -> Option<Jet<1>> {
+        if values.len() != self.dim() {
+            return None;
+        }
+        self.eval_with(sector, [a, b], values[self.first_guide()], |element| {
+            self.sum_on(values, element)
         })
     }
 
     /// Function `k` at (a,b) of a sector, with its derivatives by a and b; as
-    /// [`RefinableSpace::eval_sum`].
-    ///
-    /// # Panics
-    ///
-    /// If there is no such function or sector or a, b are not from 0 to 1.
-    pub fn eval(&self, k: usize, sector: usize, a: f64, b: f64) -> ScalarJet {
-        assert!(k < self.dim(), "function {k} of {}", self.dim());
+    /// [`RefinableSpace::eval_sum`]. `None` if there is no such function or sector, or a, b are not
+    /// from 0 to 1.
+    pub fn eval(&self, k: usize, sector: usize, a: f64, b: f64) -> Option<Jet<1>> {
+        if k >= self.dim() {
+            return None;
+        }
         let at_center = f64::from(u8::from(k == self.first_guide()));
-        self.eval_with(sector, [a, b], at_center, |ring, which| {
-            let element = self.element(ring, sector, which);
+        self.eval_with(sector, [a, b], at_center, |element| {
             let found = element.functions.iter().position(|&function| function == k);
             let zero = || vec![0.0; (self.degree() + 1) * (self.degree() + 1)];
             found.map_or_else(zero, |at| element.coefs[at].clone())
@@ -386,30 +393,25 @@ impl RefinableSpace {
         sector: usize,
         [a, b]: [f64; 2],
         at_center: f64,
-        coefs: impl Fn(usize, usize) -> Vec<f64>,
-    ) -> ScalarJet {
-        assert!(sector < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
+        coefs: impl Fn(&Element) -> Vec<f64>,
+    ) -> Option<Jet<1>> {
+        let is_inside = [a, b].iter().all(|x| (0.0..=1.0).contains(x));
+        if sector >= self.valence() || !is_inside {
+            return None;
+        }
         if a.max(b) == 0.0 {
-            let rest = f64::NAN;
-            return ScalarJet {
-                value: at_center,
-                du: rest,
-                dv: rest,
-                duu: rest,
-                duv: rest,
-                dvv: rest,
-            };
+            return Some(value_alone(at_center));
         }
         let sigma = self.eigenfunctions().sigma();
         let ring = ring_of(a.max(b), sigma);
         let place = [a, b].map(|x| scaled_up(x, ring, sigma));
         let which = self.eigenfunctions().patch_at(place);
-        let domain = self.eigenfunctions().patch_domain(which);
+        let domain = self.eigenfunctions().domain(which);
         let size = domain.map(|[start, end]| end - start);
-        let [u, v] = [0, 1].map(|k| (place[k] - domain[k][0]) / size[k]);
-        let jet = ScalarJet::of_patch(self.degree(), &coefs(ring, which), u, v);
+        let at = [0, 1].map(|k| (place[k] - domain[k][0]) / size[k]);
+        let coefs = coefs(&self.element_of(ring, sector, which));
         let speed = power(1.0 / sigma, ring);
-        jet.scaled(1.0, size.map(|size| speed / size))
+        Some(jet_of_patch(self.degree(), &coefs, at).scaled(1.0, size.map(|size| speed / size)))
     }
 
     /// The matrix from the values of functions of V_m to those of V_(m+1): row k has what function
@@ -425,7 +427,7 @@ impl RefinableSpace {
             let row = columns.iter().enumerate().map(|(k, column)| (first + k, column[at]));
             row.filter(|(_, w)| *w != 0.0).collect()
         });
-        let shrunk = (0..guides).map(|k| vec![(first + k, self.eigenfunctions().eigenvalue(k))]);
+        let shrunk = (0..guides).map(|k| vec![(first + k, self.eigenfunctions().eigenvalue_of(k))]);
         let matrix = Stencils::from_rows(self.dim(), kept.chain(new).chain(shrunk));
         matrix.expect("every column is a function")
     }
@@ -437,7 +439,7 @@ impl RefinableSpace {
         let rows = layout.functions_from_ring();
         let of_sector = |sector: usize, row: &Vec<((usize, [usize; 2]), f64)>| -> f64 {
             let coef = |square: usize, [i, j]: [usize; 2]| {
-                self.eigenfunctions().coefs(k, 0, sector, square)[i * order + j]
+                self.eigenfunctions().coefs_on(k, 0, sector, square)[i * order + j]
             };
             row.iter().map(|&((square, at), w)| w * coef(square, at)).sum()
         };
@@ -449,27 +451,24 @@ impl RefinableSpace {
         [all(level), all(own)].concat()
     }
 
-    /// The values of the functions of V_m in eigenfunction `k`.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such eigenfunction.
-    pub fn eigenfunction(&self, k: usize) -> Vec<f64> {
+    /// The values of the functions of V_m in eigenfunction `k`; `None` if there is no such
+    /// eigenfunction.
+    pub fn eigenfunction(&self, k: usize) -> Option<Vec<f64>> {
         let eigen = self.eigenfunctions();
+        let constant = f64::from(u8::from(eigen.guide(k)?.degree() == 0));
         let net = eigen.net(k);
-        let constant = f64::from(u8::from(eigen.guide(k).degree() == 0));
         let per_sector = net.len() / self.valence();
         let node = |sector: usize, at: usize| net[sector * per_sector + at][0] + constant;
         let mut values = self.functions_of_border(node);
         let ring = self.functions_of_ring(k);
         for l in 0..self.rings {
-            let factor = power(eigen.eigenvalue(k), l);
+            let factor = power(eigen.eigenvalue_of(k), l);
             values.extend(ring.iter().map(|x| factor * x));
         }
         let guide =
-            |other: usize| if other == k { power(eigen.eigenvalue(k), self.rings) } else { 0.0 };
+            |other: usize| if other == k { power(eigen.eigenvalue_of(k), self.rings) } else { 0.0 };
         values.extend((0..eigen.len()).map(guide));
-        values
+        Some(values)
     }
 
     /// The values of the functions that make 1: all functions of the border and the rings, and the
@@ -497,7 +496,7 @@ impl RefinableSpace {
     /// bi-3 B-spline of the node: together with the B-splines of all other nodes of a cage these
     /// are a basis on the whole surface, which the functions of borders, rings and guides refine.
     pub fn cnet_matrix(&self) -> Stencils {
-        let coarse = Self { common: Arc::clone(&self.common), rings: 0 };
+        let coarse = self.with_rings(0);
         let nodes = CNET_NODES * self.valence() + 1;
         let columns: Vec<Vec<f64>> = (0..nodes).map(|node| coarse.of_node(node)).collect();
         let row = |k: usize| {
@@ -510,7 +509,7 @@ impl RefinableSpace {
         while space.rings < self.rings {
             let next = space.refinement().times(&matrix);
             matrix = next.expect("every row is a function");
-            space = space.refined();
+            space = space.with_rings(space.rings + 1);
         }
         matrix
     }
@@ -525,7 +524,7 @@ impl RefinableSpace {
         let border = per_sector - monomials.len();
         // The eigenvectors are orthogonal.
         let share = |k: usize| -> f64 {
-            let guide = eigen.guide(k);
+            let guide = &eigen.guides()[k];
             if guide.degree() == 0 {
                 return limit;
             }

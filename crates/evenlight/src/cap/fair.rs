@@ -61,7 +61,7 @@ impl FairCap {
         let degree = self.inside.space().degree;
         let raised = |coefs: &Vec<[f64; N]>| {
             let cubic = std::array::from_fn(|k| coefs[k]);
-            Patch::new([degree; 2], self.inside.raised(&cubic))
+            Patch::of([degree; 2], self.inside.raised(&cubic))
         };
         let sectors = inner.into_iter().zip(&cells);
         sectors

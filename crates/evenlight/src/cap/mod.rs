@@ -42,7 +42,7 @@ use std::str::FromStr;
 use crate::names::UnknownName;
 use crate::patch::kernel::patch_jet;
 use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
-use crate::rings::{Rings, ValenceRules};
+use crate::rings::{MAX_RINGS, Rings, ValenceRules};
 use crate::scheme::{Rules, SchemeKind};
 use fair::FairCap;
 pub(crate) use plain::Lines;
@@ -70,10 +70,19 @@ pub enum CapKind {
 /// How holes are closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CapOptions {
-    /// The rings before the cap; 0 closes the whole of every sector with a cap.
+    /// The rings before the cap, at most [`MAX_RINGS`]; 0 closes the whole of every sector with a
+    /// cap.
     pub rings: usize,
     /// The patches.
     pub kind: CapKind,
+}
+
+impl CapOptions {
+    /// Whether there are so many rings.
+    pub(crate) fn check_rings(self) -> Result<(), CapError> {
+        let Self { rings, .. } = self;
+        if rings > MAX_RINGS { Err(CapError::Rings { rings }) } else { Ok(()) }
+    }
 }
 
 /// Why there is no cap.
@@ -103,6 +112,12 @@ pub enum CapError {
     Contraction {
         /// The scheme.
         scheme: SchemeKind,
+    },
+    /// There are to be more rings in front of the cap than there are.
+    #[error("{rings} rings in front of a cap: there may be {MAX_RINGS} at most")]
+    Rings {
+        /// The number asked for.
+        rings: usize,
     },
     /// The rings are cut elsewhere than a cap.
     #[error(
@@ -211,18 +226,24 @@ impl Cap {
     ///
     /// `rings` must be those that the cap was made for. At the centre the curvature is that of the
     /// common quadratic. Around fans and other plain caps it has the limit normal, if there is one, and
-    /// no curvature (NaN), as sectors have different ones.
-    ///
-    /// # Panics
-    ///
-    /// If `s` is not below the valence.
-    pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> SurfacePoint {
-        self.eval_as(rings, s, at)
+    /// no curvature (NaN), as sectors have different ones. `None` if `s` is not below the valence or
+    /// a, b are not from 0 to 1.
+    pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> Option<SurfacePoint> {
+        let is_inside = at.iter().all(|x| (0.0..=1.0).contains(x));
+        (self.has_patch(s, 0) && is_inside).then(|| self.eval_as(rings, s, at))
     }
 
-    /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it.
-    pub fn eval_on(&self, rings: &Rings, s: usize, which: usize, at: [f64; 2]) -> SurfacePoint {
-        self.eval_in_patch(rings, s, which, at)
+    /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it. `None`
+    /// if there is no such patch, or a or b is NaN.
+    pub fn eval_on(
+        &self,
+        rings: &Rings,
+        s: usize,
+        which: usize,
+        at: [f64; 2],
+    ) -> Option<SurfacePoint> {
+        let is_known = self.has_patch(s, which) && !at.iter().any(|x| x.is_nan());
+        is_known.then(|| self.eval_in_patch(rings, s, which, at))
     }
 }
 
@@ -233,6 +254,7 @@ impl<const N: usize> Cap<N> {
     ///
     /// [`CapError`], if no such cap fits the rings.
     pub fn new(rings: &Rings<N>, options: CapOptions) -> Result<Self, CapError> {
+        options.check_rings()?;
         let rules = ValenceCap::new(rings.rules(), options.kind)?;
         Ok(Self::with_rules(rings, options.rings, &rules))
     }
@@ -270,17 +292,28 @@ impl<const N: usize> Cap<N> {
     }
 
     /// The part [[a0, a1], [b0, b1]] of the hole that patch `which` of a sector covers, the hole
-    /// being the unit square; the index along b is fastest.
-    pub fn patch_domain(&self, which: usize) -> [[f64; 2]; 2] {
-        self.space.patch_domain(which)
+    /// being the unit square; the index along b is fastest. `None` if there is no such patch.
+    pub fn patch_domain(&self, which: usize) -> Option<[[f64; 2]; 2]> {
+        (which < self.patches_per_sector()).then(|| self.space.patch_domain(which))
     }
 
-    /// Patch `which` of sector `s`, in world coordinates.
-    pub fn patch(&self, rings: &Rings<N>, s: usize, which: usize) -> Patch<N> {
+    /// Patch `which` of sector `s`, in world coordinates; `None` if there is no such patch.
+    pub fn patch(&self, rings: &Rings<N>, s: usize, which: usize) -> Option<Patch<N>> {
+        self.has_patch(s, which).then(|| self.patch_at(rings, s, which))
+    }
+
+    /// Whether there is such a patch.
+    fn has_patch(&self, s: usize, which: usize) -> bool {
+        let per_sector = self.patches_per_sector();
+        which < per_sector && s < self.patches.len() / per_sector
+    }
+
+    /// The patch that there is, in world coordinates.
+    pub(crate) fn patch_at(&self, rings: &Rings<N>, s: usize, which: usize) -> Patch<N> {
         rings.to_world(self.rings, &self.patches[s * self.patches_per_sector() + which])
     }
 
-    /// [`Cap::eval`] of what is wanted alone.
+    /// [`Cap::eval`] of what is wanted alone, in a sector that there is.
     pub(crate) fn eval_as<A: Answer<N>>(&self, rings: &Rings<N>, s: usize, [a, b]: [f64; 2]) -> A {
         let which = self.space.patch_at([a, b]);
         if a.max(b) == 0.0 && plain::is_plain(rings.rules()) {
@@ -292,7 +325,7 @@ impl<const N: usize> Cap<N> {
         self.eval_in_patch(rings, s, which, [a, b])
     }
 
-    /// [`Cap::eval_on`] of what is wanted alone.
+    /// [`Cap::eval_on`] of what is wanted alone, of a patch that there is.
     pub(crate) fn eval_in_patch<A: Answer<N>>(
         &self,
         rings: &Rings<N>,
@@ -300,7 +333,7 @@ impl<const N: usize> Cap<N> {
         which: usize,
         [a, b]: [f64; 2],
     ) -> A {
-        let [[a0, _], [b0, _]] = self.patch_domain(which);
+        let [[a0, _], [b0, _]] = self.space.patch_domain(which);
         let m = self.space.pieces as f64;
         let coefs = self.patches[s * self.patches_per_sector() + which].coefs();
         let at = [(a - a0) * m, (b - b0) * m];

@@ -131,7 +131,7 @@ impl PlainCap {
             .collect();
         let mut nets: Vec<Vec<[f64; N]>> = cubics.iter().map(|net| self.raised(net)).collect();
         self.join(&mut nets, &cubics, tangents);
-        nets.into_iter().map(|net| Patch::new([self.degree; 2], net)).collect()
+        nets.into_iter().map(|net| Patch::of([self.degree; 2], net)).collect()
     }
 
     /// T of every line.

@@ -65,7 +65,7 @@ impl RoundCap {
         let of_sector = |s: usize| pieces(&self.cap.sector, &self.cap.coefs(s, &data, &center));
         let degree = self.space().degree;
         let coefs = (0..rings.valence()).flat_map(of_sector);
-        coefs.map(|coefs| Patch::new([degree; 2], coefs)).collect()
+        coefs.map(|coefs| Patch::of([degree; 2], coefs)).collect()
     }
 
     /// The data of all sectors for a hole behind `count` rings.

@@ -11,7 +11,7 @@
 //! coefficients of the first and of the last piece.
 
 use crate::dense::Matrix;
-use crate::patch::basis::{bernstein, binomial};
+use crate::patch::basis::{bernstein_basis, binomial};
 
 /// A space of splines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +98,7 @@ impl Space {
         let mut factor = 1.0;
         let row = |r: usize| {
             // The r-th derivative over r! is C(D,r) times the r-th differences of degree D - r.
-            let values = bernstein(self.degree - r, t)[0];
+            let values = bernstein_basis(self.degree - r, t)[0];
             let mut bb = vec![0.0; order];
             for (i, &value) in values.iter().enumerate().take(order - r) {
                 for k in 0..=r {
@@ -238,7 +238,7 @@ mod tests {
     fn polynomials_in_pieces_are_found_again() {
         let cubic = [0.3, -0.7, 0.2, 0.9];
         let value = |t: f64| {
-            let b = bernstein(3, t)[0];
+            let b = bernstein_basis(3, t)[0];
             (0..4).map(|i| b[i] * cubic[i]).sum::<f64>()
         };
         for (space, knots) in

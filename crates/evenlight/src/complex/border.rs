@@ -1,7 +1,7 @@
 //! The polynomials of edges: one set of coefficients for all patches that meet there.
 
 use super::{EdgeUse, PatchComplex, PatchEdgeId, PatchId};
-use crate::patch::Patch;
+use crate::patch::{MAX_DEGREE, Patch};
 use crate::point::{add_scaled, scale};
 use crate::surface::Surface;
 
@@ -34,7 +34,11 @@ impl<const N: usize> Border<N> {
     }
 
     /// The same curve in Bernstein-Bezier form of a higher degree; of its own if `degree` is lower.
-    pub fn raised(&self, degree: usize) -> Self {
+    /// `None` if `degree` is above [`MAX_DEGREE`].
+    pub fn raised(&self, degree: usize) -> Option<Self> {
+        if degree > MAX_DEGREE {
+            return None;
+        }
         let mut coefs = self.coefs.clone();
         while coefs.len() <= degree {
             let n = coefs.len();
@@ -42,17 +46,17 @@ impl<const N: usize> Border<N> {
             let raised = [coefs[0]].into_iter().chain(inner).chain([coefs[n - 1]]).collect();
             coefs = raised;
         }
-        Self { coefs }
+        Some(Self { coefs })
     }
 
     /// The border of a patch along a side, counter-clockwise.
     fn of_side(patch: &Patch<N>, side: u8) -> Self {
         let [du, dv] = patch.degree();
         let coefs = match side {
-            0 => (0..=du).map(|i| patch.coef(i, 0)).collect(),
-            1 => (0..=dv).map(|j| patch.coef(du, j)).collect(),
-            2 => (0..=du).rev().map(|i| patch.coef(i, dv)).collect(),
-            _ => (0..=dv).rev().map(|j| patch.coef(0, j)).collect(),
+            0 => (0..=du).map(|i| patch.at(i, 0)).collect(),
+            1 => (0..=dv).map(|j| patch.at(du, j)).collect(),
+            2 => (0..=du).rev().map(|i| patch.at(i, dv)).collect(),
+            _ => (0..=dv).rev().map(|j| patch.at(0, j)).collect(),
         };
         Self { coefs }
     }
@@ -154,18 +158,19 @@ mod tests {
 
     #[test]
     fn a_raised_curve_is_the_same() {
-        let raised = cubic().raised(6);
+        let raised = cubic().raised(6).expect("the degree is low enough");
         assert_eq!(raised.degree(), 6);
         for t in [0.0, 0.2, 0.7, 1.0] {
             assert_near(raised.point(t), cubic().point(t));
         }
-        assert_eq!(cubic().raised(2), cubic());
+        assert_eq!(cubic().raised(2), Some(cubic()));
+        assert_eq!(cubic().raised(usize::MAX), None);
     }
 
     #[test]
     fn sides_run_counter_clockwise() {
         let coefs = [[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 0.]];
-        let square = Patch::new([1, 1], coefs.to_vec());
+        let square = Patch::of([1, 1], coefs.to_vec());
         let corners = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
         for side in 0..4 {
             let border = Border::of_side(&square, side as u8);

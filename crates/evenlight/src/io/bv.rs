@@ -127,7 +127,7 @@ pub enum Fault {
 ///
 /// let groups = bv::read("Group 2 roof\n5 1 1\n0 0 0  0 1 0\n1 0 0  1 1 1\n").unwrap();
 /// assert_eq!((groups[0].name.as_str(), groups[0].color), ("roof", 2));
-/// assert_eq!(groups[0].patches[0].coef(0, 1), [0.0, 1.0, 0.0]);
+/// assert_eq!(groups[0].patches[0].coef(0, 1), Some([0.0, 1.0, 0.0]));
 /// ```
 pub fn read(text: &str) -> Result<Vec<Group>, ReadError> {
     let mut words = Words::new(text);
@@ -178,7 +178,7 @@ fn read_patch(kind: &str, words: &mut Words) -> Result<Patch, ReadError> {
     };
     let num_points = (degree[0] + 1) * (degree[1] + 1);
     let coefs = (0..num_points).map(|_| read_point(words)).collect::<Result<_, _>>()?;
-    Ok(Patch::new(degree, coefs))
+    Ok(Patch::of(degree, coefs))
 }
 
 fn read_degree(words: &mut Words) -> Result<usize, ReadError> {

@@ -85,7 +85,7 @@ enum Vertices<'a> {
 
 impl<'a> Vertices<'a> {
     fn of(mesh: &'a TriangleMesh, channels: &[&CornerValues]) -> Self {
-        if channels.is_empty() { Self::Sides(mesh) } else { Self::Split(mesh.split(channels)) }
+        if channels.is_empty() { Self::Sides(mesh) } else { Self::Split(mesh.split_by(channels)) }
     }
 
     fn len(&self) -> usize {
@@ -230,7 +230,8 @@ fn bounds(mesh: &TriangleMesh) -> io::Result<[[f32; 3]; 2]> {
 fn write_shape(mesh: &TriangleMesh, vertices: &Vertices, out: &mut impl Write) -> io::Result<()> {
     let mut float = |x: f64| out.write_all(&(x as f32).to_le_bytes());
     for side in vertices.sides() {
-        let position = mesh.positions[mesh.vertex_of_side(side) as usize];
+        let vertex = mesh.vertex_of_side(side).and_then(|v| mesh.positions.get(v as usize));
+        let position = vertex.ok_or_else(|| invalid("a side of the mesh has no vertex"))?;
         position.iter().try_for_each(|&x| float(x))?;
     }
     for side in vertices.sides() {

@@ -29,6 +29,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::sharpness::half_edges_of;
+use super::topology::{MAX_COUNT, face_faults};
 use super::{
     CheckError, FaceId, Faces, Mesh, MeshError, Primvar, Tagged, Tags, Topology, VertexId, Warning,
 };
@@ -221,9 +222,6 @@ pub(crate) fn check_values<const N: usize>(
     }
 }
 
-/// How many vertices and how many faces there may be; one more could not be told from "none".
-const MAX_COUNT: usize = u32::MAX as usize;
-
 /// What is wrong before faces are compared with each other.
 fn own_faults(mesh: &Mesh, max_count: usize) -> Vec<MeshError> {
     let mut errors = count_faults(mesh, max_count);
@@ -236,10 +234,14 @@ fn own_faults(mesh: &Mesh, max_count: usize) -> Vec<MeshError> {
 }
 
 fn count_faults(mesh: &Mesh, limit: usize) -> Vec<MeshError> {
-    let counts = [("vertices", mesh.positions.len()), ("faces", mesh.faces.len())];
-    let too_many = counts.into_iter().filter(|&(_, count)| count > limit);
+    let counts = [
+        ("vertices", mesh.positions.len(), limit),
+        ("faces", mesh.faces.len(), limit),
+        ("corners", mesh.faces.all_corners().len(), MAX_COUNT),
+    ];
+    let too_many = counts.into_iter().filter(|&(_, count, limit)| count > limit);
     let mut errors: Vec<MeshError> =
-        too_many.map(|(what, count)| MeshError::TooLarge { what, count, limit }).collect();
+        too_many.map(|(what, count, limit)| MeshError::TooLarge { what, count, limit }).collect();
     if mesh.faces.is_empty() {
         errors.push(MeshError::NoFaces { num_vertices: mesh.positions.len() });
     }
@@ -249,37 +251,6 @@ fn count_faults(mesh: &Mesh, limit: usize) -> Vec<MeshError> {
 fn position_faults(positions: &[Point]) -> impl Iterator<Item = MeshError> {
     let faulty = positions.iter().zip(0..).filter(|(p, _)| p.iter().any(|x| !x.is_finite()));
     faulty.map(|(&position, v)| MeshError::NonFinitePosition { vertex: VertexId(v), position })
-}
-
-fn face_faults(faces: &Faces, num_vertices: usize) -> Vec<MeshError> {
-    // The last face seen at each vertex: finds repetitions in time linear in the corners.
-    let mut last_face: Vec<Option<FaceId>> = vec![None; num_vertices];
-    let mut errors = Vec::new();
-    for (face, corners) in faces.ids().zip(faces.iter()) {
-        if corners.len() < 3 {
-            errors.push(MeshError::TooFewCorners { face, num_corners: corners.len() });
-        }
-        errors.extend(corner_fault(face, corners, &mut last_face));
-    }
-    errors
-}
-
-/// The first corner that is out of range or repeated.
-fn corner_fault(
-    face: FaceId,
-    corners: &[VertexId],
-    last_face: &mut [Option<FaceId>],
-) -> Option<MeshError> {
-    let num_vertices = last_face.len();
-    for &vertex in corners {
-        let Some(last) = last_face.get_mut(vertex.index()) else {
-            return Some(MeshError::IndexOutOfRange { face, vertex, num_vertices });
-        };
-        if last.replace(face) == Some(face) {
-            return Some(MeshError::RepeatedVertex { face, vertex });
-        }
-    }
-    None
 }
 
 /// Tags on what is not there, and sharpness that is none.
@@ -308,7 +279,7 @@ fn tag_faults(topology: &Topology, tags: &Tags) -> Vec<MeshError> {
 
 /// Connects the faces, each of which is sound for itself.
 fn connect(faces: &Faces, num_vertices: usize) -> Result<Topology, CheckError> {
-    let topology = Topology::build(faces.clone(), num_vertices);
+    let topology = Topology::of_checked(faces.clone(), num_vertices);
     topology.map_err(|errors| CheckError { errors: name_duplicates(faces, errors) })
 }
 

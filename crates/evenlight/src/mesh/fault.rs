@@ -20,9 +20,9 @@ pub enum MeshError {
         /// The number of vertices.
         num_vertices: usize,
     },
-    /// There are more vertices or faces than 32 bits can number.
+    /// There are more vertices, faces or corners than 32 bits can number.
     TooLarge {
-        /// What there is too much of: "vertices" or "faces".
+        /// What there is too much of: "vertices", "faces" or "corners".
         what: &'static str,
         /// How many there are.
         count: usize,

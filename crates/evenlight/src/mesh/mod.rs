@@ -28,7 +28,7 @@ pub use tags::{
     BoundaryRule, Corner, Crease, CreaseMethod, FaceVaryingRule, INFINITELY_SHARP, Interpolation,
     Primvar, Tags,
 };
-pub use topology::{HalfEdgeId, Ring, Topology};
+pub use topology::{HalfEdge, HalfEdgeId, Ring, Topology};
 
 pub use crate::net::{Fan, VertexRule};
 use crate::point::Point;
@@ -93,7 +93,7 @@ impl Mesh {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Faces {
     /// Where each face begins in `corners`; one entry more than there are faces.
-    offsets: Vec<u32>,
+    offsets: Vec<usize>,
     corners: Vec<VertexId>,
 }
 
@@ -105,14 +105,9 @@ impl Default for Faces {
 
 impl Faces {
     /// Appends a face.
-    ///
-    /// # Panics
-    ///
-    /// If all faces together have 2^32 corners or more.
     pub fn push(&mut self, corners: impl IntoIterator<Item = VertexId>) {
         self.corners.extend(corners);
-        let end = u32::try_from(self.corners.len()).expect("a cage has fewer than 2^32 corners");
-        self.offsets.push(end);
+        self.offsets.push(self.corners.len());
     }
 
     /// The number of faces.
@@ -125,14 +120,17 @@ impl Faces {
         self.len() == 0
     }
 
-    /// The corners of `face`.
+    /// The corners of `face`; none if there is no such face.
     pub fn corners(&self, face: FaceId) -> &[VertexId] {
-        &self.corners[self.corner_range(face)]
+        match self.offsets.get(face.index()..) {
+            Some(&[start, end, ..]) => &self.corners[start..end],
+            _ => &[],
+        }
     }
 
     /// All faces in order.
     pub fn iter(&self) -> impl Iterator<Item = &[VertexId]> {
-        self.offsets.windows(2).map(|w| &self.corners[w[0] as usize..w[1] as usize])
+        self.offsets.windows(2).map(|w| &self.corners[w[0]..w[1]])
     }
 
     /// The numbers of all faces.
@@ -145,8 +143,8 @@ impl Faces {
         &self.corners
     }
 
-    /// Where the corners of `face` stand in [`Faces::all_corners`].
+    /// Where the corners of `face`, which there is, stand in [`Faces::all_corners`].
     pub(crate) fn corner_range(&self, face: FaceId) -> std::ops::Range<usize> {
-        self.offsets[face.index()] as usize..self.offsets[face.index() + 1] as usize
+        self.offsets[face.index()]..self.offsets[face.index() + 1]
     }
 }

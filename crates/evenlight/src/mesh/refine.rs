@@ -61,7 +61,7 @@ impl Level {
             builder.add_children(face, &mut faces);
         }
         let origins = builder.origins;
-        let topology = Topology::build(faces, origins.len())
+        let topology = Topology::of_checked(faces, origins.len())
             .expect("a refined part of a surface is a surface, since its fans were separated");
         Self { topology, first_child, origins }
     }

@@ -27,7 +27,75 @@ impl HalfEdgeId {
     }
 }
 
+/// A half-edge of a [`Topology`], from which one can walk on; made by [`Topology::get`] and
+/// [`Topology::half_edge_at`].
+///
+/// ```
+/// use evenlight::{Cage, FaceId, Mesh, VertexId};
+///
+/// let square = vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+/// let cage = Cage::new(Mesh::new(square, [[0, 1, 2, 3]]))?;
+/// let h = cage.topology().half_edge_at(FaceId(0), 1).expect("the face has a corner 1");
+/// assert_eq!([h.origin(), h.target(), h.next().target()], [1, 2, 3].map(VertexId));
+/// assert!(h.twin().is_none(), "there is no other face");
+/// assert!(cage.topology().half_edge_at(FaceId(0), 4).is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct HalfEdge<'a> {
+    topology: &'a Topology,
+    id: HalfEdgeId,
+}
+
+impl HalfEdge<'_> {
+    /// Its number.
+    pub fn id(self) -> HalfEdgeId {
+        self.id
+    }
+
+    /// The face on its left.
+    pub fn face(self) -> FaceId {
+        self.topology.face(self.id)
+    }
+
+    /// The corner of its face at which it starts.
+    pub fn corner(self) -> usize {
+        self.topology.corner(self.id)
+    }
+
+    /// The vertex at which it starts.
+    pub fn origin(self) -> VertexId {
+        self.topology.origin(self.id)
+    }
+
+    /// The vertex at which it ends.
+    pub fn target(self) -> VertexId {
+        self.topology.target(self.id)
+    }
+
+    /// The one that follows around its face.
+    #[must_use]
+    pub fn next(self) -> Self {
+        Self { id: self.topology.next(self.id), ..self }
+    }
+
+    /// The one that comes before around its face.
+    #[must_use]
+    pub fn previous(self) -> Self {
+        Self { id: self.topology.previous(self.id), ..self }
+    }
+
+    /// The other side of its edge; `None` at a boundary.
+    #[must_use]
+    pub fn twin(self) -> Option<Self> {
+        self.topology.twin(self.id).map(|id| Self { id, ..self })
+    }
+}
+
 const NONE: u32 = u32::MAX;
+
+/// How many vertices, faces and corners there may be; one more could not be told from "none".
+pub(super) const MAX_COUNT: usize = u32::MAX as usize;
 
 /// The connectivity of an orientable surface mesh, possibly with boundary.
 ///
@@ -54,11 +122,22 @@ impl Topology {
     ///
     /// # Errors
     ///
-    /// All places where the faces are not an orientable surface: an edge with three faces or
-    /// more, two neighbours of opposite orientation, a vertex whose faces form more than one
-    /// fan. Every face must have three corners or more, all different and in range
-    /// ([`Cage::new`](super::Cage::new) checks that first).
+    /// All faces that have fewer than three corners, or corners that are not different and in range;
+    /// if there are none, all places where the faces are not an orientable surface: an edge with
+    /// three faces or more, two neighbours of opposite orientation, a vertex whose faces form more
+    /// than one fan.
     pub fn build(faces: Faces, num_vertices: usize) -> Result<Self, Vec<MeshError>> {
+        let counts = [("vertices", num_vertices), ("corners", faces.all_corners().len())];
+        let too_many = counts.into_iter().find(|&(_, count)| count > MAX_COUNT);
+        let errors = match too_many {
+            Some((what, count)) => vec![MeshError::TooLarge { what, count, limit: MAX_COUNT }],
+            None => face_faults(&faces, num_vertices),
+        };
+        if errors.is_empty() { Self::of_checked(faces, num_vertices) } else { Err(errors) }
+    }
+
+    /// [`Topology::build`] of faces without faults of their own.
+    pub(super) fn of_checked(faces: Faces, num_vertices: usize) -> Result<Self, Vec<MeshError>> {
         let face = faces.ids().flat_map(|f| vec![f; faces.corner_range(f).len()]).collect();
         let twin = vec![NONE; faces.all_corners().len()];
         let (outgoing, num_sectors) = (vec![NONE; num_vertices], vec![0; num_vertices]);
@@ -188,33 +267,45 @@ impl Topology {
         (0..self.face.len() as u32).map(HalfEdgeId)
     }
 
-    /// The half-edge that leaves corner `corner` of `face`.
-    pub fn half_edge(&self, face: FaceId, corner: usize) -> HalfEdgeId {
+    /// The half-edge of this number; `None` if there is none.
+    pub fn get(&self, h: HalfEdgeId) -> Option<HalfEdge<'_>> {
+        (h.index() < self.face.len()).then_some(HalfEdge { topology: self, id: h })
+    }
+
+    /// The half-edge that leaves corner `corner` of `face`; `None` if there is no such corner.
+    pub fn half_edge_at(&self, face: FaceId, corner: usize) -> Option<HalfEdge<'_>> {
+        let has_corner = corner < self.faces.corners(face).len();
+        has_corner.then(|| HalfEdge { topology: self, id: self.half_edge(face, corner) })
+    }
+
+    /// The half-edge that leaves corner `corner` of `face`, of ids of this topology, like all methods
+    /// of the crate that answer without an `Option`.
+    pub(crate) fn half_edge(&self, face: FaceId, corner: usize) -> HalfEdgeId {
         HalfEdgeId((self.faces.corner_range(face).start + corner) as u32)
     }
 
     /// The face on the left of `h`.
-    pub fn face(&self, h: HalfEdgeId) -> FaceId {
+    pub(crate) fn face(&self, h: HalfEdgeId) -> FaceId {
         self.face[h.index()]
     }
 
     /// The corner of its face at which `h` starts.
-    pub fn corner(&self, h: HalfEdgeId) -> usize {
+    pub(crate) fn corner(&self, h: HalfEdgeId) -> usize {
         h.index() - self.faces.corner_range(self.face(h)).start
     }
 
     /// The vertex at which `h` starts.
-    pub fn origin(&self, h: HalfEdgeId) -> VertexId {
+    pub(crate) fn origin(&self, h: HalfEdgeId) -> VertexId {
         self.faces.all_corners()[h.index()]
     }
 
     /// The vertex at which `h` ends.
-    pub fn target(&self, h: HalfEdgeId) -> VertexId {
+    pub(crate) fn target(&self, h: HalfEdgeId) -> VertexId {
         self.origin(self.next(h))
     }
 
     /// The half-edge that follows `h` around its face.
-    pub fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
+    pub(crate) fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
         let range = self.faces.corner_range(self.face(h));
         if h.index() + 1 == range.end {
             HalfEdgeId(range.start as u32)
@@ -224,7 +315,7 @@ impl Topology {
     }
 
     /// The half-edge that comes before `h` around its face.
-    pub fn previous(&self, h: HalfEdgeId) -> HalfEdgeId {
+    pub(crate) fn previous(&self, h: HalfEdgeId) -> HalfEdgeId {
         let range = self.faces.corner_range(self.face(h));
         if h.index() == range.start {
             HalfEdgeId(range.end as u32 - 1)
@@ -233,40 +324,74 @@ impl Topology {
         }
     }
 
-    /// The other side of the edge of `h`; `None` at a boundary.
+    /// The other side of the edge of `h`; `None` at a boundary, or if there is no such half-edge.
     pub fn twin(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
-        let twin = self.twin[h.index()];
-        (twin != NONE).then_some(HalfEdgeId(twin))
+        self.twin.get(h.index()).filter(|&&twin| twin != NONE).map(|&twin| HalfEdgeId(twin))
     }
 
     /// The outgoing half-edges of `v`, counter-clockwise; from the clockwise-most at a
-    /// boundary. Empty if `v` is in no face.
+    /// boundary. Empty if `v` is in no face, or there is no such vertex.
     pub fn ring(&self, v: VertexId) -> Ring<'_> {
-        let start = self.outgoing[v.index()];
-        let start = (start != NONE).then_some(HalfEdgeId(start));
+        let start = self.outgoing(v);
         Ring { topology: self, start, next: start }
+    }
+
+    /// One outgoing half-edge of `v`, the clockwise-most at a boundary.
+    fn outgoing(&self, v: VertexId) -> Option<HalfEdgeId> {
+        self.outgoing.get(v.index()).filter(|&&h| h != NONE).map(|&h| HalfEdgeId(h))
     }
 
     /// Whether `v` is in a face.
     pub fn is_used(&self, v: VertexId) -> bool {
-        self.outgoing[v.index()] != NONE
+        self.outgoing(v).is_some()
     }
 
     /// Whether `v` is on the boundary. A vertex in no face is not.
     pub fn is_boundary(&self, v: VertexId) -> bool {
-        let h = self.outgoing[v.index()];
-        h != NONE && self.twin[h as usize] == NONE
+        self.outgoing(v).is_some_and(|h| self.twin(h).is_none())
     }
 
-    /// The number of faces around `v`.
+    /// The number of faces around `v`; 0 if there is no such vertex.
     pub fn num_sectors(&self, v: VertexId) -> usize {
-        self.num_sectors[v.index()] as usize
+        self.num_sectors.get(v.index()).map_or(0, |&n| n as usize)
     }
 
     /// The number of edges at `v`.
     pub fn valence(&self, v: VertexId) -> usize {
         self.num_sectors(v) + usize::from(self.is_boundary(v))
     }
+}
+
+/// What is wrong with each face by itself.
+pub(super) fn face_faults(faces: &Faces, num_vertices: usize) -> Vec<MeshError> {
+    // The last face seen at each vertex: finds repetitions in time linear in the corners.
+    let mut last_face: Vec<Option<FaceId>> = vec![None; num_vertices];
+    let mut errors = Vec::new();
+    for (face, corners) in faces.ids().zip(faces.iter()) {
+        if corners.len() < 3 {
+            errors.push(MeshError::TooFewCorners { face, num_corners: corners.len() });
+        }
+        errors.extend(corner_fault(face, corners, &mut last_face));
+    }
+    errors
+}
+
+/// The first corner that is out of range or repeated.
+fn corner_fault(
+    face: FaceId,
+    corners: &[VertexId],
+    last_face: &mut [Option<FaceId>],
+) -> Option<MeshError> {
+    let num_vertices = last_face.len();
+    for &vertex in corners {
+        let Some(last) = last_face.get_mut(vertex.index()) else {
+            return Some(MeshError::IndexOutOfRange { face, vertex, num_vertices });
+        };
+        if last.replace(face) == Some(face) {
+            return Some(MeshError::RepeatedVertex { face, vertex });
+        }
+    }
+    None
 }
 
 /// The outgoing half-edges around a vertex; made by [`Topology::ring`].

@@ -34,7 +34,7 @@ impl Fan {
 
     /// The number of its edges.
     pub fn lines(self) -> usize {
-        self.faces + usize::from(!self.is_closed)
+        self.faces.saturating_add(usize::from(!self.is_closed))
     }
 }
 

@@ -26,6 +26,9 @@ pub use fan::{Fan, VertexRule};
 pub use quadratic::Quadratic;
 pub(crate) use quadratic::{Expansion, turned};
 
+/// The highest valence of a point: it keeps a face with a million corners from using up the memory.
+pub(crate) const MAX_VALENCE: usize = 1024;
+
 /// A node of a net relative to some sector: the number of sectors to go on and the node's
 /// number within that sector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -18,6 +18,7 @@
 //!          line s-1      q_4 = p + beta/5           q_6 = p + 2/5 beta + epsilon/10
 //! ```
 
+use super::MAX_VALENCE;
 use crate::angle::sector_cosine;
 use crate::point::{Point, Vector, add, add_scaled, scale, sub};
 
@@ -88,25 +89,27 @@ impl<const N: usize> Quadratic<N> {
         sum
     }
 
-    /// The same quadratic by its coefficients in the coordinates of sector `s` around a point of
-    /// valence `n` [KP23-QAS, eq. 1].
-    pub fn in_sector(&self, n: usize, s: usize) -> Self {
+    /// The same quadratic by its coefficients in the coordinates of sector `s`, modulo n, around a
+    /// point of valence `n` [KP23-QAS, eq. 1]; `None` if n is not from 3 to 1024.
+    pub fn in_sector(&self, n: usize, s: usize) -> Option<Self> {
+        if !(3..=MAX_VALENCE).contains(&n) {
+            return None;
+        }
         let c = sector_cosine(n);
         let expansion = (0..s % n).fold(self.expansion(), |e, _| turned(c, e));
-        Self::from_expansion(self.center(), expansion)
+        Some(Self::from_expansion(self.center(), expansion))
     }
 
     /// The common quadratic nearest to one proposal per sector, each by its coefficients in that
     /// sector: every proposal is carried to sector 0, and the mean is taken [KP23-QAS, eq. 4, 5].
     ///
-    /// Proposals that agree are reproduced. The centre is the mean of the centres.
-    ///
-    /// # Panics
-    ///
-    /// If there are fewer than three sectors.
-    pub fn from_proposals(proposals: &[[[f64; N]; 6]]) -> Self {
+    /// Proposals that agree are reproduced. The centre is the mean of the centres. `None` if there
+    /// are fewer than three sectors, or more than 1024.
+    pub fn from_proposals(proposals: &[[[f64; N]; 6]]) -> Option<Self> {
         let n = proposals.len();
-        assert!(n >= 3, "an extraordinary point has three sectors or more, not {n}");
+        if !(3..=MAX_VALENCE).contains(&n) {
+            return None;
+        }
         let c = sector_cosine(n);
         let (mut p, mut mean) = ([0.0; N], [[0.0; N]; 5]);
         for (s, &coefs) in proposals.iter().enumerate() {
@@ -118,7 +121,7 @@ impl<const N: usize> Quadratic<N> {
                 add_scaled(sum, 1.0 / n as f64, x);
             }
         }
-        Self::from_expansion(p, mean)
+        Some(Self::from_expansion(p, mean))
     }
 }
 
@@ -152,6 +155,14 @@ mod tests {
     use super::*;
     use crate::point::norm;
 
+    fn in_sector(q: &Quadratic, n: usize, s: usize) -> Quadratic {
+        q.in_sector(n, s).expect("there is such a valence")
+    }
+
+    fn common(proposals: &[[Point; 6]]) -> Quadratic {
+        Quadratic::from_proposals(proposals).expect("there are sectors enough")
+    }
+
     fn some() -> Quadratic {
         let coef = |k: usize| [0, 1, 2].map(|d| ((7 * k + 3 * d) as f64 * 0.731).sin());
         Quadratic { coefs: std::array::from_fn(coef) }
@@ -168,7 +179,7 @@ mod tests {
                 let from_line = direction - angle * (s as f64 - 1.0);
                 let v = r * from_line.sin() / angle.sin();
                 let u = r * from_line.cos() - v * angle.cos();
-                q.in_sector(n, s).at(u, v)
+                in_sector(&q, n, s).at(u, v)
             };
             for s in 1..=n {
                 // Sectors of 22 degrees have coordinates some ten times as large as points.
@@ -181,15 +192,15 @@ mod tests {
     fn equal_proposals_are_reproduced_and_others_projected() {
         for n in [3, 5, 8, 16] {
             let mut proposals: Vec<[Point; 6]> =
-                (0..n).map(|s| some().in_sector(n, s).coefs).collect();
-            let q = Quadratic::from_proposals(&proposals);
+                (0..n).map(|s| in_sector(&some(), n, s).coefs).collect();
+            let q = common(&proposals);
             for (a, b) in q.coefs.iter().zip(some().coefs) {
                 assert!(norm(sub(*a, b)) < 1e-13);
             }
             proposals[1][4][2] += 0.5;
-            let moved = Quadratic::from_proposals(&proposals);
-            let again: Vec<[Point; 6]> = (0..n).map(|s| moved.in_sector(n, s).coefs).collect();
-            let projected = Quadratic::from_proposals(&again);
+            let moved = common(&proposals);
+            let again: Vec<[Point; 6]> = (0..n).map(|s| in_sector(&moved, n, s).coefs).collect();
+            let projected = common(&again);
             for (a, b) in moved.coefs.iter().zip(projected.coefs) {
                 assert!(norm(sub(*a, b)) < 1e-13, "the projection is idempotent");
             }

@@ -6,15 +6,16 @@ use super::MAX_DEGREE;
 pub type BasisJet<const N: usize> = [[f64; N]; 3];
 
 /// The Bernstein polynomials of degree `d` at `t`: values, first and second derivatives.
-/// Entries beyond `d` are zero.
+/// Entries beyond `d` are zero. `None` if `d` is above [`MAX_DEGREE`].
 ///
 /// Computed by the recursion B_i^d = (1-t) B_i^(d-1) + t B_(i-1)^(d-1), so that the values are
 /// exact at t = 0 and 1 and never negative between.
-///
-/// # Panics
-///
-/// If `d` is above [`MAX_DEGREE`].
-pub fn bernstein(d: usize, t: f64) -> BasisJet<{ MAX_DEGREE + 1 }> {
+pub fn bernstein(d: usize, t: f64) -> Option<BasisJet<{ MAX_DEGREE + 1 }>> {
+    (d <= MAX_DEGREE).then(|| bernstein_basis(d, t))
+}
+
+/// [`bernstein`] of a degree that is known to be low enough.
+pub(crate) fn bernstein_basis(d: usize, t: f64) -> BasisJet<{ MAX_DEGREE + 1 }> {
     let mut values = [0.0; MAX_DEGREE + 1];
     values[0] = 1.0;
     let mut lower = [[0.0; MAX_DEGREE + 1]; 2]; // the values of degree d - 1 and d - 2
@@ -102,7 +103,7 @@ mod tests {
     fn bernstein_polynomials_sum_to_one_and_their_derivatives_to_zero() {
         for d in 0..=MAX_DEGREE {
             for t in [0.0, 0.1, 0.5, 0.77, 1.0] {
-                let [b, d1, d2] = bernstein(d, t).map(|row| row.iter().sum::<f64>());
+                let [b, d1, d2] = bernstein_basis(d, t).map(|row| row.iter().sum::<f64>());
                 assert!((b - 1.0).abs() < 1e-15 && d1.abs() < 1e-14 && d2.abs() < 1e-13);
             }
         }
@@ -111,7 +112,7 @@ mod tests {
     #[test]
     fn bernstein_agrees_with_closed_forms() {
         let t: f64 = 0.3;
-        let [b, d1, d2] = bernstein(4, t);
+        let [b, d1, d2] = bernstein_basis(4, t);
         let s = 1.0 - t;
         assert!((b[1] - 4.0 * s * s * s * t).abs() < 1e-15);
         assert!((d1[1] - 4.0 * (s * s * s - 3.0 * s * s * t)).abs() < 1e-15);
@@ -121,7 +122,7 @@ mod tests {
     #[test]
     fn cubic_b_splines_agree_with_their_bb_form() {
         for t in [0.0, 0.2, 0.9, 1.0] {
-            let (spline, bb) = (cubic_b_spline(t), bernstein(3, t));
+            let (spline, bb) = (cubic_b_spline(t), bernstein_basis(3, t));
             for (order, row) in spline.iter().enumerate() {
                 for (c, &value) in row.iter().enumerate() {
                     let sum: f64 = (0..4).map(|k| bb[order][k] * CUBIC_B_SPLINE_TO_BB[k][c]).sum();

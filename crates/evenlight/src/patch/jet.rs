@@ -64,6 +64,18 @@ impl<const N: usize> Jet<N> {
         }
     }
 
+    /// The jet of (u,v) -> factor map(x u, y v).
+    pub fn scaled(&self, factor: f64, [x, y]: [f64; 2]) -> Self {
+        Self {
+            p: scale(factor, self.p),
+            du: scale(factor * x, self.du),
+            dv: scale(factor * y, self.dv),
+            duu: scale(factor * x * x, self.duu),
+            duv: scale(factor * x * y, self.duv),
+            dvv: scale(factor * y * y, self.dvv),
+        }
+    }
+
     /// The unit normal and the curvatures of the first three numbers; NaN where the derivatives are
     /// parallel or zero.
     #[inline]

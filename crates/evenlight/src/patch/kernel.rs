@@ -12,7 +12,7 @@
 //! (derivatives beyond `order`) is left out, and zero in the result.
 
 use super::Jet;
-use super::basis::{BasisJet, bernstein};
+use super::basis::{BasisJet, bernstein_basis};
 use crate::point::scale;
 
 /// The jet up to `order` (0, 1 or 2) of sum_ij bu_i bv_j p_ij.
@@ -144,9 +144,8 @@ pub(crate) fn sum<const K: usize, const N: usize>(w: &[f64; K], r: &[[f64; N]; K
 /// The jet up to `order` of the patch of degree bi-`degree` with these BB coefficients, `v` index
 /// fastest.
 ///
-/// # Panics
-///
-/// If there are too few coefficients, or the degree is above [`MAX_DEGREE`](super::MAX_DEGREE).
+/// There must be (degree + 1)^2 coefficients, and the degree be at most
+/// [`MAX_DEGREE`](super::MAX_DEGREE).
 #[inline]
 pub(crate) fn patch_jet<const N: usize>(
     order: usize,
@@ -160,7 +159,7 @@ pub(crate) fn patch_jet<const N: usize>(
         5 => square_jet::<6, N>(order, coefs, u, v),
         6 => square_jet::<7, N>(order, coefs, u, v),
         _ => {
-            let (bu, bv) = (bernstein(degree, u), bernstein(degree, v));
+            let (bu, bv) = (bernstein_basis(degree, u), bernstein_basis(degree, v));
             Jet::tensor_product(&bu, &bv, [degree + 1; 2], |i, j| coefs[i * (degree + 1) + j])
         }
     }
@@ -184,7 +183,7 @@ pub(crate) fn square<const K: usize, const N: usize>(coefs: &[[f64; N]]) -> &[[[
     rows.first_chunk::<K>().expect("a patch has (d+1)^2 coefficients")
 }
 
-/// [`bernstein`] of degree K - 1, which must be 2 or more.
+/// [`bernstein_basis`] of degree K - 1, which must be 2 or more.
 #[inline(always)]
 pub(crate) fn bernstein_of_size<const K: usize>(t: f64) -> BasisJet<K> {
     let d = K - 1;
@@ -234,7 +233,7 @@ mod tests {
     fn kernels_agree_with_the_plain_sums() {
         for degree in 1..=crate::patch::MAX_DEGREE {
             let coefs = coefs((degree + 1) * (degree + 1));
-            let patch = Patch::new([degree; 2], coefs.clone());
+            let patch = Patch::of([degree; 2], coefs.clone());
             for at in [[0.0, 0.0], [1.0, 1.0], [0.3, 0.7], [0.99, 0.01], [1.0, 0.5], [1.2, -0.1]] {
                 let plain = patch.jet(at[0], at[1]).rows();
                 for (order, rows) in [(0, 1), (1, 3), (2, 6)] {
@@ -258,7 +257,7 @@ mod tests {
     #[test]
     fn bases_of_fixed_size_agree_with_the_recursion() {
         for t in [0.0, 0.25, 0.6, 1.0, 1.5] {
-            let (plain, fast) = (bernstein(5, t), bernstein_of_size::<6>(t));
+            let (plain, fast) = (bernstein_basis(5, t), bernstein_of_size::<6>(t));
             for (a, b) in plain.iter().zip(&fast) {
                 assert!(a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-13), "{plain:?} {fast:?}");
             }

@@ -41,13 +41,26 @@ pub struct Patch<const N: usize = 3> {
 impl<const N: usize> Patch<N> {
     /// Builds a patch of degree `[du, dv]` from its BB coefficients, `v` index fastest.
     ///
-    /// # Panics
+    /// # Errors
     ///
-    /// If there are not `(du + 1) (dv + 1)` coefficients, or a degree is above [`MAX_DEGREE`].
-    pub fn new(degree: [usize; 2], coefs: Vec<[f64; N]>) -> Self {
+    /// [`PatchError`] if a degree is above [`MAX_DEGREE`], or there are not `(du + 1) (dv + 1)`
+    /// coefficients.
+    pub fn new(degree: [usize; 2], coefs: Vec<[f64; N]>) -> Result<Self, PatchError> {
         let [du, dv] = degree;
-        assert!(du <= MAX_DEGREE && dv <= MAX_DEGREE, "degree ({du}, {dv}) is too high");
-        assert_eq!(coefs.len(), (du + 1) * (dv + 1), "a patch of degree ({du}, {dv})");
+        if du > MAX_DEGREE || dv > MAX_DEGREE {
+            return Err(PatchError::Degree { du, dv });
+        }
+        let (expected, found) = ((du + 1) * (dv + 1), coefs.len());
+        if found != expected {
+            return Err(PatchError::Count { du, dv, expected, found });
+        }
+        Ok(Self { degree, coefs })
+    }
+
+    /// The patch of coefficients that are known to fit.
+    pub(crate) fn of(degree: [usize; 2], coefs: Vec<[f64; N]>) -> Self {
+        debug_assert!(degree.into_iter().all(|d| d <= MAX_DEGREE), "{degree:?}");
+        debug_assert_eq!(coefs.len(), (degree[0] + 1) * (degree[1] + 1), "{degree:?}");
         Self { degree, coefs }
     }
 
@@ -56,8 +69,14 @@ impl<const N: usize> Patch<N> {
         self.degree
     }
 
-    /// The BB coefficient `b_ij`.
-    pub fn coef(&self, i: usize, j: usize) -> [f64; N] {
+    /// The BB coefficient `b_ij`; `None` if an index is above the degree.
+    pub fn coef(&self, i: usize, j: usize) -> Option<[f64; N]> {
+        let [du, dv] = self.degree;
+        (i <= du && j <= dv).then(|| self.at(i, j))
+    }
+
+    /// The BB coefficient `b_ij` that there is.
+    pub(crate) fn at(&self, i: usize, j: usize) -> [f64; N] {
         self.coefs[i * (self.degree[1] + 1) + j]
     }
 
@@ -73,17 +92,44 @@ impl<const N: usize> Patch<N> {
     /// use evenlight::patch::Patch;
     ///
     /// // The bilinear patch p(u,v) = (u, v, uv).
-    /// let p = Patch::new([1, 1], vec![[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 1.]]);
+    /// let p = Patch::new([1, 1], vec![[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 1.]])?;
     /// let jet = p.jet(0.5, 0.25);
     /// assert_eq!(jet.p, [0.5, 0.25, 0.125]);
     /// assert_eq!(jet.duv, [0.0, 0.0, 1.0]);
+    /// # Ok::<(), evenlight::patch::PatchError>(())
     /// ```
     pub fn jet(&self, u: f64, v: f64) -> Jet<N> {
-        let bu = basis::bernstein(self.degree[0], u);
-        let bv = basis::bernstein(self.degree[1], v);
+        let bu = basis::bernstein_basis(self.degree[0], u);
+        let bv = basis::bernstein_basis(self.degree[1], v);
         let counts = self.degree.map(|d| d + 1);
-        Jet::tensor_product(&bu, &bv, counts, |i, j| self.coef(i, j))
+        Jet::tensor_product(&bu, &bv, counts, |i, j| self.at(i, j))
     }
+}
+
+/// Why coefficients are not those of a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PatchError {
+    /// A degree is too high.
+    #[error("a patch of degree ({du}, {dv}): degrees are at most {MAX_DEGREE}")]
+    Degree {
+        /// The degree in u.
+        du: usize,
+        /// The degree in v.
+        dv: usize,
+    },
+    /// There are too many coefficients, or too few.
+    #[error("a patch of degree ({du}, {dv}) has {expected} coefficients, not {found}")]
+    Count {
+        /// The degree in u.
+        du: usize,
+        /// The degree in v.
+        dv: usize,
+        /// The coefficients that it has.
+        expected: usize,
+        /// The coefficients that there are.
+        found: usize,
+    },
 }
 
 #[cfg(test)]
@@ -94,7 +140,7 @@ mod tests {
     fn saddle() -> Patch {
         let square = [0.0, 0.0, 1.0]; // t^2 in BB form of degree 2
         let coef = |i: usize, j: usize| [i as f64 / 2.0, j as f64 / 2.0, square[i] - square[j]];
-        Patch::new([2, 2], (0..3).flat_map(|i| (0..3).map(move |j| coef(i, j))).collect())
+        Patch::of([2, 2], (0..3).flat_map(|i| (0..3).map(move |j| coef(i, j))).collect())
     }
 
     #[test]

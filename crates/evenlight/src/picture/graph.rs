@@ -12,7 +12,7 @@ use super::canvas::Picture;
 use super::color::{Light, diverging, from_srgb, mix, to_srgb};
 use super::shade::studio;
 use super::{MAX_SAMPLES, MAX_SIDE, PictureError, annotate, panel_grid};
-use crate::basis::{Eigenfunctions, Parity};
+use crate::basis::{Eigenfunctions, HomogeneousGuide, Parity};
 use crate::patch::Patch;
 use crate::point::{Point, Vector, cross, dot, scale, sub};
 use crate::task::map_indexed;
@@ -50,11 +50,8 @@ impl Default for GraphOptions {
 ///
 /// # Errors
 ///
-/// If an option is out of range, there are no functions, or too many for the size.
-///
-/// # Panics
-///
-/// If there is no function of a number.
+/// If an option is out of range, there are no functions, or too many for the size, or there is no
+/// function of a number.
 pub fn eigenfunctions(
     functions: &Eigenfunctions,
     which: &[usize],
@@ -70,6 +67,10 @@ pub fn eigenfunctions(
     ];
     if let Some((_, option, allowed)) = rules.into_iter().find(|(valid, ..)| !valid) {
         return Err(PictureError::Option { option, allowed });
+    }
+    let count = functions.len();
+    if let Some(&number) = which.iter().find(|&&k| k >= count) {
+        return Err(PictureError::Function { number, count });
     }
     let too_many = PictureError::Panels { panels: which.len(), width };
     let (columns, size) = panel_grid(which.len(), [width, height]).ok_or(too_many)?;
@@ -89,14 +90,20 @@ pub fn eigenfunctions(
             }
         }
         let scale = (width.min(height) / 900).max(1);
-        annotate(&mut picture, origin, size, &name(functions, which[k]), false, scale);
+        annotate(
+            &mut picture,
+            origin,
+            size,
+            &functions.guide(which[k]).map_or_else(String::new, name),
+            false,
+            scale,
+        );
     }
     Ok(picture)
 }
 
 /// As lambda^3, m = 2 even.
-fn name(functions: &Eigenfunctions, k: usize) -> String {
-    let guide = functions.guide(k);
+fn name(guide: &HomogeneousGuide) -> String {
     let parity = match guide.parity() {
         Parity::Even => "even",
         Parity::Odd => "odd",
@@ -125,8 +132,9 @@ impl Graph {
         let half = std::f64::consts::PI / n as f64;
         // Functions 1 and 2 have the diagonal of sector 0 as x axis.
         let (sin, cos) = half.sin_cos();
-        let coefs =
-            |k: usize, (ring, s, which): (usize, usize, usize)| functions.coefs(k, ring, s, which);
+        let coefs = |k: usize, (ring, s, which): (usize, usize, usize)| {
+            functions.coefs_on(k, ring, s, which)
+        };
         let per_sector = functions.patches_per_sector();
         let ring_of = |ring: usize| {
             (0..n * per_sector).map(move |at| (ring, at / per_sector, at % per_sector))
@@ -143,7 +151,7 @@ impl Graph {
             let place = |((x, y), z): ((&f64, &f64), &f64)| {
                 [cos * x - sin * y, sin * x + cos * y, height * z]
             };
-            (at.0, Patch::new([functions.degree(); 2], points.map(place).collect()))
+            (at.0, Patch::of([functions.degree(); 2], points.map(place).collect()))
         };
         let outer: Vec<Point> = ring_of(0).map(patch).flat_map(|p| p.1.coefs().to_vec()).collect();
         let top = HEIGHT * radius;
@@ -281,5 +289,7 @@ mod tests {
         assert_eq!(draw(&[1; 9], [2, 2], 1), panels(9));
         assert_eq!(draw(&[1], [0, 2], 1), Err(PictureError::Size { width: 0, height: 2 }));
         assert!(matches!(draw(&[1], [2, 2], 9), Err(PictureError::Option { .. })));
+        let none = PictureError::Function { number: 96, count: 96 };
+        assert_eq!(draw(&[1, 96], [20, 20], 1), Err(none));
     }
 }

@@ -149,6 +149,14 @@ pub enum PictureError {
         /// The width asked for.
         width: usize,
     },
+    /// There is no such eigenfunction.
+    #[error("there is no eigenfunction {number}, but 0 to {}", count.saturating_sub(1))]
+    Function {
+        /// The number asked for.
+        number: usize,
+        /// How many there are.
+        count: usize,
+    },
     /// An option is out of range.
     #[error("{option} must be {allowed}")]
     Option {

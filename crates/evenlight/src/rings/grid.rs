@@ -12,7 +12,8 @@
 //!    +------------+------+--> a
 //! ```
 
-use super::{OUT_OF_THE_DENORMALS, Rings};
+use super::Rings;
+use super::depth::OUT_OF_THE_DENORMALS;
 use crate::patch::Answer;
 use crate::patch::kernel::{Line, patch_grid};
 

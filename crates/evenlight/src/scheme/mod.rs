@@ -22,7 +22,7 @@ pub(crate) use rules::{Cuts, PatchParameters, Row, Rules};
 pub(crate) use subdominant::Subdominant;
 
 use crate::names::names;
-use crate::net::{CNet, DNet, Spline};
+use crate::net::{CNet, DNet, MAX_VALENCE, Spline};
 
 /// Which subdivision scheme makes the surface around extraordinary points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -228,6 +228,5 @@ impl SchemeKind {
 const TABULATED_VALENCE: usize = 16;
 const PUBLISHED_VALENCE: usize = 10;
 
-/// Catmull-Clark has rules for every valence; the limit keeps a face with a million corners from
-/// using up the memory.
-pub(crate) const MAX_CATMULL_CLARK_VALENCE: usize = 1024;
+/// Catmull-Clark has rules for every valence that there is.
+pub(crate) const MAX_CATMULL_CLARK_VALENCE: usize = MAX_VALENCE;

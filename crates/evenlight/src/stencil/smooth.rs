@@ -18,7 +18,7 @@ use super::unit::{PatchWeights, UnitNets};
 use crate::cap::{CapError, CapOptions};
 use crate::mesh::isolation::{CORNERS, Piece};
 use crate::mesh::{RegularNet, VertexId};
-use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, bernstein, cubic_b_spline};
+use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, bernstein_basis, cubic_b_spline};
 use crate::rings::{power, ring_of, scaled_up};
 use crate::surface::{CapPlan, Layout, PatchPlace, QuadId, RingPatch, Source, quadrant, to_sector};
 
@@ -249,7 +249,7 @@ impl SmoothNet {
         sums: &mut Sums<R>,
     ) {
         let degree = spot.weights.degree();
-        let (order, [ba, bb]) = (degree + 1, at.map(|x| bernstein(degree, x)));
+        let (order, [ba, bb]) = (degree + 1, at.map(|x| bernstein_basis(degree, x)));
         let mut weights = vec![[0.0; R]; spot.point.units.center().len()];
         for (k, row) in spot.weights.rows().enumerate() {
             let w = turned(corner, product(&factors, [&ba, &bb], [k / order, k % order]));

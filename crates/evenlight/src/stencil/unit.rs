@@ -208,7 +208,7 @@ impl UnitNets {
             let cap = Cap::with_rules(&rings, 0, rules);
             let per_sector = cap.patches_per_sector();
             let numbers = 0..per_sector * self.rules.rules().valence;
-            numbers.map(|k| cap.patch(&rings, k / per_sector, k % per_sector)).collect()
+            numbers.map(|k| cap.patch_at(&rings, k / per_sector, k % per_sector)).collect()
         };
         self.table(&self.nets().rings.iter().map(of_nets).collect::<Vec<_>>())
     }

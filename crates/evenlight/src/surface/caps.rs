@@ -19,6 +19,7 @@ impl CapPlan {
     ///
     /// If the caps do not fit the rings of some point.
     pub(crate) fn new(layout: &Layout, options: CapOptions) -> Result<Self, CapError> {
+        options.check_rings()?;
         let points = layout.extraordinary_points().len();
         // Made by the first point of every kind; the others find them made.
         let made = map_indexed(points, |point| layout.rules(point).cap(options.kind));

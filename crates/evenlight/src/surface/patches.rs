@@ -10,11 +10,11 @@ use crate::mesh::isolation::{CORNERS, Piece};
 use crate::patch::basis::{CUBIC_B_SPLINE_TO_BB, cubic_b_spline};
 use crate::patch::kernel::{square, sum, sum_of_rows, tensor_jet};
 use crate::patch::{Answer, Jet, Parts, Patch, SurfacePoint};
-use crate::rings::{in_ring, scaled_up};
+use crate::rings::{MAX_RINGS, in_ring, scaled_up};
 
 impl Layout {
     /// Where the patches of surfaces lie that are not closed: all regular patches and the first
-    /// `rings` rings of every extraordinary point, quad by quad.
+    /// `rings` rings of every extraordinary point, at most [`MAX_RINGS`], quad by quad.
     pub fn patch_places(&self, rings: usize) -> impl Iterator<Item = PatchPlace> + '_ {
         self.places(rings, None)
     }
@@ -26,6 +26,7 @@ impl Layout {
         rings: usize,
         caps: Option<&'a CapPlan>,
     ) -> impl Iterator<Item = PatchPlace> + use<'a> {
+        let rings = rings.min(MAX_RINGS);
         (0..self.num_quads() as u32).flat_map(move |quad| {
             let mut places = Vec::new();
             let whole = Square { quad: QuadId(quad), origin: [0.0; 2], size: 1.0 };
@@ -180,8 +181,8 @@ impl Collector<'_> {
 }
 
 impl<const N: usize> Surface<N> {
-    /// All regular patches and the first `rings` rings of every extraordinary point, quad by
-    /// quad; of a closed surface no more rings than it has, and if it is all of them the caps.
+    /// All regular patches and the first `rings` rings of every extraordinary point, at most
+    /// [`MAX_RINGS`], quad by quad; of a closed surface no more rings than it has, and if it is all of them the caps.
     pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch<N>> + '_ {
         self.patch_places(rings).map(|place| {
             let patch = self.patch_at(&place);
@@ -218,7 +219,7 @@ impl<const N: usize> Surface<N> {
     fn has(&self, place: &PatchPlace) -> bool {
         let in_sector = |p: &RingPatch, patches: usize| {
             let rules = self.layout.rules(p.point).rules().rules();
-            p.sector < rules.valence && p.which < patches
+            p.sector < rules.valence && p.which < patches && p.ring < MAX_RINGS
         };
         match &place.source {
             Source::Net(net) => (*net as usize) < self.layout.plan.nets.len(),
@@ -237,11 +238,11 @@ impl<const N: usize> Surface<N> {
         match place.source {
             Source::Net(net) => self.regular_patch(net),
             Source::Ring(RingPatch { point, sector, ring, which, corner, .. }) => {
-                turned_patch(corner, self.rings_at(point).patch(ring, sector, which))
+                turned_patch(corner, self.rings_at(point).patch_at(ring, sector, which))
             }
             Source::Cap(RingPatch { point, sector, which, corner, .. }) => {
                 let cap = self.cap(point).expect("places of caps are those of caps");
-                turned_patch(corner, cap.patch(self.rings_at(point), sector, which))
+                turned_patch(corner, cap.patch_at(self.rings_at(point), sector, which))
             }
         }
     }
@@ -288,7 +289,7 @@ impl<const N: usize> Surface<N> {
         let points = self.net_points(net);
         let along_u = CUBIC_B_SPLINE_TO_BB.map(|row| sum_of_rows(&row, square(&points)));
         let along_v = |p: [[f64; N]; 4]| CUBIC_B_SPLINE_TO_BB.map(|row| sum(&row, &p));
-        Patch::new([3, 3], along_u.map(along_v).as_flattened().to_vec())
+        Patch::of([3, 3], along_u.map(along_v).as_flattened().to_vec())
     }
 }
 

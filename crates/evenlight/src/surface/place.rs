@@ -179,7 +179,7 @@ pub(super) fn turned_patch<const N: usize>(corner: u8, patch: Patch<N>) -> Patch
     for i in 0..order {
         turned.extend((0..order).map(|j| coefs[(first + i * by_i + j * by_j) as usize]));
     }
-    Patch::new([d, d], turned)
+    Patch::of([d, d], turned)
 }
 
 /// The (u,v) rectangle, in the square of its sector, of a patch of ring `ring` (from 0) that

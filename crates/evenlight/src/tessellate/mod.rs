@@ -363,9 +363,9 @@ impl TriangleMesh {
     /// assert_eq!((mesh.positions.len(), mesh.normals.len()), (5 * 9, 5 * 10));
     /// for (t, sides) in mesh.sides().iter().enumerate() {
     ///     for (&vertex, &side) in mesh.triangles[t].iter().zip(sides) {
-    ///         assert_eq!(mesh.vertex_of_side(side), vertex);
-    ///         let on_the_left = mesh.parametric_triangle(t).quad.0 == 0;
-    ///         assert_eq!(mesh.normals[side as usize][0] < 0.0, on_the_left);
+    ///         assert_eq!(mesh.vertex_of_side(side), Some(vertex));
+    ///         let on_the_left = mesh.parametric_triangle(t).map(|place| place.quad.0 == 0);
+    ///         assert_eq!(Some(mesh.normals[side as usize][0] < 0.0), on_the_left);
     ///     }
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -374,28 +374,25 @@ impl TriangleMesh {
         if self.is_folded() { &self.corner_sides } else { &self.triangles }
     }
 
-    /// The vertex that has side `side`.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such side.
-    pub fn vertex_of_side(&self, side: u32) -> u32 {
-        let further = (side as usize).checked_sub(self.positions.len());
-        further.map_or(side, |k| self.side_vertices[k])
+    /// The vertex that has side `side`; `None` if there is no such side.
+    pub fn vertex_of_side(&self, side: u32) -> Option<u32> {
+        match (side as usize).checked_sub(self.positions.len()) {
+            None => Some(side),
+            Some(further) => self.side_vertices.get(further).copied(),
+        }
     }
 
     /// Triangle `triangle` in the parameters of its quad, by a binary search over the quads.
     ///
     /// Vertices on an edge may have their [`origins`](Self::origins) in another quad; this
-    /// tells all three corners in one.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such triangle.
-    pub fn parametric_triangle(&self, triangle: usize) -> ParametricTriangle {
-        assert!(triangle < self.triangles.len(), "there is no triangle {triangle}");
+    /// tells all three corners in one. `None` if there is no such triangle.
+    pub fn parametric_triangle(&self, triangle: usize) -> Option<ParametricTriangle> {
+        if triangle >= self.triangles.len() {
+            return None;
+        }
         let after = self.quads.partition_point(|q| q.first <= triangle);
-        self.parametric_triangle_of(self.quads[after - 1], triangle)
+        let quad = self.quads.get(after.checked_sub(1)?)?;
+        Some(self.parametric_triangle_of(*quad, triangle))
     }
 
     /// All triangles in the parameters of their quads, in the order of

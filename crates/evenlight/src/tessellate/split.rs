@@ -31,12 +31,15 @@ impl TriangleMesh {
     /// this mesh ([`TriangleMesh::corner_values`]).
     ///
     /// Split vertices of one vertex have the position of [`TriangleMesh::vertex_of_side`], so that
-    /// welding by position gives back `triangles`.
-    ///
-    /// # Panics
-    ///
-    /// If a channel has fewer triangles than the mesh.
-    pub fn split(&self, channels: &[&CornerValues]) -> SplitVertices {
+    /// welding by position gives back `triangles`. `None` if a channel has not as many triangles as
+    /// the mesh.
+    pub fn split(&self, channels: &[&CornerValues]) -> Option<SplitVertices> {
+        let fits = |channel: &&CornerValues| channel.corners.len() == self.triangles.len();
+        channels.iter().all(fits).then(|| self.split_by(channels))
+    }
+
+    /// [`TriangleMesh::split`] by channels of this mesh.
+    pub(crate) fn split_by(&self, channels: &[&CornerValues]) -> SplitVertices {
         let mut splitter = Splitter::new(self.normals.len(), channels.len());
         let mut triangles = self.sides().to_vec();
         if !channels.is_empty() {
