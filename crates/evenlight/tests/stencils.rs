@@ -478,7 +478,7 @@ fn primvars_are_those_of_the_surface() {
     for (rule, scheme) in RULES.into_iter().flat_map(|rule| SchemeKind::ALL.map(|s| (rule, s))) {
         for (name, cage) in textured(rule) {
             let surface = Surface::build(cage, options(scheme)).unwrap();
-            // Close to points at seams derivatives of channels have lost digits themselves.
+            // Close to points at seams derivatives of primvars have lost digits themselves.
             let is_deep = |&(_, u, v): &Place| u * (1.0 - u) * v * (1.0 - v) < 1e-9;
             let mut places = places(&surface);
             places.retain(|place| !is_deep(place) || place.1 * (1.0 - place.1) == 0.0);
@@ -490,7 +490,7 @@ fn primvars_are_those_of_the_surface() {
                 assert_eq!(stencils.num_columns() * width, values.len());
                 let mut results = vec![0.0; stencils.num_rows() * width];
                 stencils.apply_flat(width, values, &mut results).unwrap();
-                // Channels have points of their own at seams, at which second derivatives grow.
+                // Primvars have points of their own at seams, at which second derivatives grow.
                 let largest = values.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
                 for (&(quad, u, v), found) in places.iter().zip(results.chunks(6 * width)) {
                     let rows = surface.eval_primvar::<4>(k, quad, u, v).unwrap().rows();

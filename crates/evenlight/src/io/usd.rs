@@ -25,7 +25,7 @@
 //! A scheme other than `catmullClark`, smooth triangles, primvars that are constant, uniform or no
 //! numbers, and composition (references, payloads, variants ...) are reported, not followed. Of
 //! values over time the first counts if there is no other. Primvars of corners without indices
-//! are joined where a vertex has the same value. `displayColor` is the channel `color`, and
+//! are joined where a vertex has the same value. `displayColor` is the primvar `color`, and
 //! `evenlight:creaseMethod` (`uniform` or `chaikin`) is our own.
 //!
 //! Numbers are read with 64 bits, though the types of USD say 32. Vertices and faces are counted
@@ -116,7 +116,7 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> std::io::Result<()> {
     write::write(mesh, out)
 }
 
-/// What [`write()`] leaves out of `mesh`, in sentences: channels whose names or sizes are not fit
+/// What [`write()`] leaves out of `mesh`, in sentences: primvars whose names or sizes are not fit
 /// for primvars.
 pub fn omitted(mesh: &Mesh) -> Vec<String> {
     write::omitted(mesh)

@@ -67,7 +67,7 @@ pub use patches::PatchStencils;
 pub use refined::RefinedCage;
 
 use crate::cap::CapOptions;
-use crate::mesh::channel::ChannelNet;
+use crate::mesh::primvar_net::PrimvarNet;
 use crate::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use crate::surface::{ArrayError, Layout, PatchPlace, QuadId, Surface, own_layout, row_width};
 use columns::{Columns, Sums, in_parts};
@@ -290,7 +290,7 @@ impl StencilBuilder {
 /// The net of a linear face-varying primvar.
 fn linear_net(layout: &Layout, primvar: &Primvar) -> Option<LinearNet> {
     let boundary = layout.options().boundary.unwrap_or(layout.tags().boundary);
-    let net = ChannelNet::new(layout.topology(), layout.tags(), primvar, boundary);
+    let net = PrimvarNet::new(layout.topology(), layout.tags(), primvar, boundary);
     let topology = layout.topology().with_vertices(net.faces, net.values.len()).ok()?;
     Some(LinearNet { topology: Arc::new(topology), columns: value_columns(primvar, net.values) })
 }

@@ -71,7 +71,7 @@ impl<const N: usize> Surface<N> {
         let plan = options.map(|options| CapPlan::new(&self.layout, options)).transpose()?;
         self.caps = plan.map(|plan| Caps::new(Arc::new(plan)));
         // Primvars are closed likewise.
-        self.channels = primvar::unbuilt(&self.primvars);
+        self.primvar_surfaces = primvar::unbuilt(&self.primvars);
         Ok(())
     }
 

@@ -74,7 +74,7 @@ pub struct Surface<const N: usize = 3> {
     /// The primvars of the cage; of a primvar none.
     primvars: Arc<[Primvar]>,
     /// Their surfaces, built when they are first asked for, shared with all poses.
-    channels: Vec<Arc<OnceLock<primvar::Channel>>>,
+    primvar_surfaces: Vec<Arc<OnceLock<primvar::PrimvarSurface>>>,
 }
 
 impl Surface {
@@ -195,8 +195,8 @@ impl<const N: usize> Surface<N> {
     ) -> Self {
         let levels = refined(&layout, values);
         let rings = unmade(layout.extraordinary_points().len());
-        let channels = primvar::unbuilt(&primvars);
-        Self { layout, levels, rings, caps: None, primvars, channels }
+        let primvar_surfaces = primvar::unbuilt(&primvars);
+        Self { layout, levels, rings, caps: None, primvars, primvar_surfaces }
     }
 
     /// The same surface over other values, with the same layout, kind of caps and primvars. Quadratics
@@ -216,7 +216,7 @@ impl<const N: usize> Surface<N> {
             rings: unmade(self.rings.len()),
             caps: self.caps.as_ref().map(Caps::unmade),
             primvars: self.primvars.clone(),
-            channels: self.channels.clone(),
+            primvar_surfaces: self.primvar_surfaces.clone(),
         })
     }
 

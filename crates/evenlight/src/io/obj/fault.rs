@@ -69,7 +69,7 @@ impl fmt::Display for Element {
 /// What the numbers in a corner of a face are of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Channel {
+pub enum IndexKind {
     /// Vertices, `v`.
     Vertex,
     /// Texture coordinates, `vt`.
@@ -78,7 +78,7 @@ pub enum Channel {
     Normal,
 }
 
-impl fmt::Display for Channel {
+impl fmt::Display for IndexKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Vertex => "vertex",
@@ -128,23 +128,23 @@ pub enum Reason {
         text: String,
     },
     /// A corner has the number 0.
-    #[error("`{text}` asks for {channel} 0, but the first has number 1: correct the number")]
+    #[error("`{text}` asks for {kind} 0, but the first has number 1: correct the number")]
     IndexZero {
         /// The corner.
         text: String,
         /// What the number is of.
-        channel: Channel,
+        kind: IndexKind,
     },
     /// A corner has a number that is greater than how many there are in the file.
     #[error(
-        "`{text}` asks for {channel} {index}, but the file has {count}: correct the number or \
+        "`{text}` asks for {kind} {index}, but the file has {count}: correct the number or \
          add what is missing"
     )]
     IndexTooLarge {
         /// The corner.
         text: String,
         /// What the number is of.
-        channel: Channel,
+        kind: IndexKind,
         /// The number as it is written.
         index: String,
         /// How many there are.
@@ -152,14 +152,14 @@ pub enum Reason {
     },
     /// A corner counts back past the beginning.
     #[error(
-        "`{text}` asks for {channel} {index}, but {count} come before it: correct the number or \
+        "`{text}` asks for {kind} {index}, but {count} come before it: correct the number or \
          move the line to after what it asks for"
     )]
     IndexBeforeFirst {
         /// The corner.
         text: String,
         /// What the number is of.
-        channel: Channel,
+        kind: IndexKind,
         /// The number as it is written, which is negative.
         index: String,
         /// How many come before it.

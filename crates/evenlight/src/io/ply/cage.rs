@@ -1,8 +1,8 @@
 //! From elements to a mesh.
 
 use super::body::Body;
-use super::channels::{self, CornerValues};
 use super::header::{Element, Header, word};
+use super::primvars::{self, CornerValues};
 use super::{Place, Ply, ReadError};
 use crate::io::lines::Lines;
 use crate::mesh::{Faces, Mesh, VertexId};
@@ -173,7 +173,7 @@ impl<'a> PlyReader<'a> {
             .map(|(_, column)| column)
             .collect();
         let mut primvars: Vec<_> = self.texcoords.finish(&mut self.remarks).into_iter().collect();
-        channels::group(columns, &mut primvars, &mut self.remarks);
+        primvars::group(columns, &mut primvars, &mut self.remarks);
         let mesh =
             Mesh { positions: self.positions, faces: self.faces, primvars, ..Mesh::default() };
         Ply { mesh, lines: self.lines, remarks: self.remarks }
