@@ -1,5 +1,5 @@
-//! Stencils: applied to the values of the cage they are what `Surface` says, for every scheme, tag and
-//! kind of primvar; and nothing that they are asked for makes them panic.
+//! Stencils: applied to the values of the cage they are what `Surface` says, for every scheme, tag
+//! and kind of primvar; and nothing that they are asked for makes them panic.
 #![allow(clippy::unwrap_used, reason = "a test that cannot make its cages fails")]
 
 mod common;
@@ -16,7 +16,8 @@ use evenlight::surface::{ArrayError, CreaseRings, Layout, Role, row_width};
 use evenlight::task::Task;
 use evenlight::{Cage, FaceId, Mesh, QuadId, SchemeKind, Surface, SurfaceOptions};
 
-/// What results may differ by, as a part of the largest value and of the scale of a row; 2e-14 is seen.
+/// What results may differ by, as a part of the largest value and of the scale of a row; 2e-14 is
+/// seen.
 const ROUNDING: f64 = 1e-13;
 
 type Place = (QuadId, f64, f64);
@@ -79,11 +80,11 @@ fn places(surface: &Surface) -> Vec<Place> {
     places
 }
 
-/// What the rows of places are made of before anything cancels, by the largest weight of a vertex: the
-/// factors of derivatives in the pieces of their quads.
+/// What the rows of places are made of before anything cancels, by the largest weight of a vertex:
+/// the factors of derivatives in the pieces of their quads.
 ///
-/// In ring l around a point derivatives of order k are (lambda / sigma^k)^l times those of ring 0. A
-/// part of them may cancel: the tangents along a crease have no second derivative along it.
+/// In ring l around a point derivatives of order k are (lambda / sigma^k)^l times those of ring 0.
+/// A part of them may cancel: the tangents along a crease have no second derivative along it.
 fn scales(surface: &Surface, places: &[Place], order: usize) -> Vec<f64> {
     let of_place = |&(quad, u, v): &Place| {
         let points = surface.extraordinary_points().iter().enumerate();
@@ -556,8 +557,8 @@ fn patches_of_primvars_have_the_limits() {
     }
 }
 
-/// In the plane the surface of a regular grid is the grid: u and v are reproduced, and their squares
-/// up to the constant that splines add.
+/// In the plane the surface of a regular grid is the grid: u and v are reproduced, and their
+/// squares up to the constant that splines add.
 #[test]
 fn a_regular_grid_is_reproduced() {
     let n = 6;

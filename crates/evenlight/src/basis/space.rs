@@ -136,8 +136,8 @@ impl Element {
 }
 
 impl RefinableSpace {
-    /// The space V_m, m = `rings`, of `guided5` or `guided6` at `valence`; `None` for other schemes,
-    /// valences without rules, and more than [`MAX_RINGS`] rings.
+    /// The space V_m, m = `rings`, of `guided5` or `guided6` at `valence`; `None` for other
+    /// schemes, valences without rules, and more than [`MAX_RINGS`] rings.
     ///
     /// The splines of `guided3` and `guided4` are made of bi-5 rings, ring by ring: they have no
     /// functions of their own.
@@ -362,8 +362,8 @@ impl RefinableSpace {
     /// The sum of all functions times `values` at (a,b) of a sector, with its derivatives by a and
     /// b. At the centre (0,0) it has only its value; the derivatives are NaN.
     ///
-    /// `None` if there is no such sector, a, b are not from 0 to 1, or there is not one value for each
-    /// function. Many points on one patch are cheaper with [`RefinableSpace::element`].
+    /// `None` if there is no such sector, a, b are not from 0 to 1, or there is not one value for
+    /// each function. Many points on one patch are cheaper with [`RefinableSpace::element`].
     pub fn eval_sum(&self, values: &[f64], sector: usize, a: f64, b: f64) -> Option<Jet<1>> {
         if values.len() != self.dim() {
             return None;

@@ -8,8 +8,8 @@
 use crate::rings::ValenceRules;
 use crate::scheme::{FanLimit, Row};
 
-/// The weights of all nodes of the net of a fan in the coefficients of a patch, relative to the limit
-/// point and scaled as its ring. The first net of the rules must be the nodes.
+/// The weights of all nodes of the net of a fan in the coefficients of a patch, relative to the
+/// limit point and scaled as its ring. The first net of the rules must be the nodes.
 pub(super) fn patch(
     valence_rules: &ValenceRules,
     ring: usize,

@@ -40,7 +40,8 @@ impl SharedRules {
 /// wants to free the memory, or to keep its own apart, makes one and hands it to
 /// [`Layout::with_cache`](super::Layout::with_cache). Clones are the same cache.
 ///
-/// When it is full, what was not used for the longest time is dropped; surfaces keep the rules that they have.
+/// When it is full, what was not used for the longest time is dropped; surfaces keep the rules that
+/// they have.
 ///
 /// ```
 /// use evenlight::surface::{Layout, RuleCache};
@@ -133,8 +134,8 @@ impl RuleCache {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The rules of a fan that has this rule. There must be some: [`PointRule::of`] asks before, and
-    /// Catmull-Clark has all.
+    /// The rules of a fan that has this rule. There must be some: [`PointRule::of`] asks before,
+    /// and Catmull-Clark has all.
     pub(super) fn rules(
         &self,
         rule: PointRule,

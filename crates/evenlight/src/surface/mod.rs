@@ -15,8 +15,9 @@
 //! pieces ([`isolation`](crate::mesh::isolation)). Evaluation finds the piece and its own
 //! parameters; all pieces are parts of one surface.
 //!
-//! A surface is a [`Layout`], which knows topology, tags and options, and the values at the vertices
-//! of the cage. Positions are values of three numbers; primvars, of one to four, are surfaces too.
+//! A surface is a [`Layout`], which knows topology, tags and options, and the values at the
+//! vertices of the cage. Positions are values of three numbers; primvars, of one to four, are
+//! surfaces too.
 
 mod arrays;
 mod cache;
@@ -131,8 +132,8 @@ impl Surface {
         self.values()
     }
 
-    /// The same surface over other positions of the cage's vertices, with the same layout, kind of caps
-    /// and primvars. Quadratics are the default ones again.
+    /// The same surface over other positions of the cage's vertices, with the same layout, kind of
+    /// caps and primvars. Quadratics are the default ones again.
     ///
     /// ```
     /// use evenlight::{Cage, Mesh, QuadId, Surface, SurfaceOptions};
@@ -166,9 +167,9 @@ impl Surface {
     /// Position, derivatives, normal and curvature at (u,v) of `quad`, which are clamped to
     /// 0..1; `None` if the face is omitted, there is no such quad or a parameter is NaN.
     ///
-    /// At an extraordinary point itself, unless a cap is there, the position is the limit point and the
-    /// normal the limit normal; derivatives do not exist there and are NaN, nor does curvature but for
-    /// schemes with a quadratic or a guide, where it is that of q or of the guide
+    /// At an extraordinary point itself, unless a cap is there, the position is the limit point and
+    /// the normal the limit normal; derivatives do not exist there and are NaN, nor does curvature
+    /// but for schemes with a quadratic or a guide, where it is that of q or of the guide
     /// ([`Rings::center_curvature`]). Anywhere else, however near, all are exact to rounding
     /// ([`Rings::eval`]).
     pub fn eval(&self, quad: QuadId, u: f64, v: f64) -> Option<SurfacePoint> {
@@ -199,11 +200,11 @@ impl<const N: usize> Surface<N> {
         Self { layout, levels, rings, caps: None, primvars, primvar_surfaces }
     }
 
-    /// The same surface over other values, with the same layout, kind of caps and primvars. Quadratics
-    /// are the default ones again.
+    /// The same surface over other values, with the same layout, kind of caps and primvars.
+    /// Quadratics are the default ones again.
     ///
-    /// Takes the time of checking the values and refining what is refined; rings and caps are made when
-    /// they are asked for.
+    /// Takes the time of checking the values and refining what is refined; rings and caps are made
+    /// when they are asked for.
     ///
     /// # Errors
     ///

@@ -10,8 +10,8 @@
 //! surface's scheme there; elsewhere Catmull-Clark's rules, also if positions have
 //! fair rings beside creases ([`CreaseRings::Fair`]).
 //!
-//! A vertex primvar has the layout of the positions, a face-varying one a layout of its own. Both are
-//! [`Surface`]s of as many numbers as the primvar has, built when they are first asked for.
+//! A vertex primvar has the layout of the positions, a face-varying one a layout of its own. Both
+//! are [`Surface`]s of as many numbers as the primvar has, built when they are first asked for.
 
 use std::sync::{Arc, OnceLock};
 
@@ -77,7 +77,8 @@ impl PrimvarSurface {
     }
 }
 
-/// The layout of a smooth face-varying primvar, and the number of the value at each of its vertices.
+/// The layout of a smooth face-varying primvar, and the number of the value at each of its
+/// vertices.
 pub(crate) fn own_layout(layout: &Layout, primvar: &Primvar) -> Option<(Arc<Layout>, Vec<u32>)> {
     PrimvarSurface::own_layout(layout, primvar)
 }
@@ -135,8 +136,8 @@ impl Surface {
     }
 
     /// Value and derivatives of a primvar, by its index, at (u,v) of `quad`, which are clamped to
-    /// 0..1: its first N numbers, those beyond its width being 0. `None` where [`Surface::eval`] is, and
-    /// if there is no such primvar.
+    /// 0..1: its first N numbers, those beyond its width being 0. `None` where [`Surface::eval`]
+    /// is, and if there is no such primvar.
     ///
     /// Derivatives do not exist (NaN) where those of a surface do not: at extraordinary points.
     ///
@@ -178,8 +179,8 @@ impl Surface {
         }
     }
 
-    /// The surface of a primvar, by its index, if it is smooth and has N numbers; for everything that
-    /// surfaces can do.
+    /// The surface of a primvar, by its index, if it is smooth and has N numbers; for everything
+    /// that surfaces can do.
     pub fn primvar_surface<const N: usize>(&self, primvar: usize) -> Option<&Surface<N>> {
         let surface: &dyn std::any::Any = match self.built_primvar(primvar)? {
             PrimvarSurface::Smooth1(surface) => surface,
