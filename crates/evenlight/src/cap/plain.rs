@@ -13,7 +13,7 @@
 //!      line s
 //! ```
 //!
-//! *Lines.* A crease or boundary is a cubic up to the vertex, so it stays exactly what it is, and
+//! *FanLines.* A crease or boundary is a cubic up to the vertex, so it stays exactly what it is, and
 //! the surfaces on both sides of it go on sharing it. Other lines are cubics too, with the tangents
 //!
 //! ```text
@@ -57,7 +57,7 @@ pub(super) fn is_plain(rules: &ValenceRules) -> bool {
 #[derive(Clone, Debug)]
 pub(crate) struct PlainCap {
     degree: usize,
-    lines: Lines,
+    lines: FanLines,
     border: Border,
     /// Whether there is a tangent plane, in which the lines leave the centre in equal angles.
     has_plane: bool,
@@ -67,7 +67,7 @@ pub(crate) struct PlainCap {
 
 /// The lines of a fan of sectors: line s is the first of sector s.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lines {
+pub(crate) struct FanLines {
     sectors: usize,
     /// Whether the last sector ends at line 0, not at one more.
     is_closed: bool,
@@ -102,7 +102,7 @@ impl PlainCap {
     pub(super) fn inside(rules: &ValenceRules, kind: CapKind) -> Self {
         let border = Border::new(3, &domains(rules.rules()), Space::polynomials(3));
         let degree = if kind == CapKind::Bi3 { 3 } else { 4 };
-        Self { degree, lines: Lines::of(rules), border, has_plane: true, directions: None }
+        Self { degree, lines: FanLines::of(rules), border, has_plane: true, directions: None }
     }
 
     pub(super) fn space(&self) -> Space {
@@ -224,7 +224,7 @@ impl PlainCap {
     }
 }
 
-impl Lines {
+impl FanLines {
     pub(crate) fn of(rules: &ValenceRules) -> Self {
         let sectors = rules.rules().valence;
         let shape = rules.fan_limit().map(FanLimit::shape);
@@ -331,7 +331,7 @@ impl Lines {
 pub(super) struct LineEnd<const N: usize>([[f64; N]; 3]);
 
 impl<const N: usize> LineEnd<N> {
-    pub(super) fn of(outside: &[Vec<[f64; N]>], lines: Lines, line: usize) -> Self {
+    pub(super) fn of(outside: &[Vec<[f64; N]>], lines: FanLines, line: usize) -> Self {
         // The last line of an open fan is the b-axis of the last sector.
         let (sector, edge) = if line == lines.sectors { (line - 1, 1) } else { (line, 0) };
         Self([0, 1, 2].map(|layer| outside[sector][at(edge, layer, 0)]))
@@ -389,7 +389,7 @@ fn line_ends_of_eigenvector(
     rules: &Rules,
     limit: &FanLimit,
     border: &Border,
-    lines: Lines,
+    lines: FanLines,
 ) -> Vec<f64> {
     // The left eigenvector is a net with the same symmetry, and has a part of the right one.
     let mut net = vec![[0.0]; rules.num_nodes()];
