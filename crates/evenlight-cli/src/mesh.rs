@@ -1,7 +1,7 @@
 //! `evenlight mesh`: triangles of the limit surface.
 
 use clap::{Args, ValueEnum};
-use evenlight::tessellate::{CornerChannels, TriangleMesh, tessellate};
+use evenlight::tessellate::{CornerPrimvars, TriangleMesh, tessellate};
 use evenlight::{Surface, io};
 
 use crate::cap::CapRingsArg;
@@ -68,11 +68,11 @@ pub fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let mesh = progress.show(|| triangles(&surface, args.rate.into()))?;
     progress.step();
     progress.stage("Writing triangles");
-    let has_channels = io::MeshFormat::from(format).has_channels();
-    let channels =
-        if has_channels { mesh.corner_channels(&surface) } else { CornerChannels::default() };
-    write(&mesh, &channels, format, &args.output)?;
-    let omitted = io::MeshFormat::from(format).omitted(&surface, &mesh, &channels);
+    let has_primvars = io::MeshFormat::from(format).has_primvars();
+    let primvars =
+        if has_primvars { mesh.corner_primvars(&surface) } else { CornerPrimvars::default() };
+    write(&mesh, &primvars, format, &args.output)?;
+    let omitted = io::MeshFormat::from(format).omitted(&surface, &mesh, &primvars);
     omitted.iter().for_each(|sentence| warn(format_args!("{}: {sentence}", args.output)));
     Ok(())
 }
@@ -85,9 +85,9 @@ pub fn triangles(surface: &Surface, rate: usize) -> Result<TriangleMesh, Failure
 /// Writes `mesh`.
 pub fn write(
     mesh: &TriangleMesh,
-    channels: &CornerChannels,
+    primvars: &CornerPrimvars,
     format: MeshFormat,
     target: &Target,
 ) -> Result<(), Failure> {
-    target.write(|mut out| io::MeshFormat::from(format).write(mesh, channels, &mut out))
+    target.write(|mut out| io::MeshFormat::from(format).write(mesh, primvars, &mut out))
 }

@@ -97,7 +97,7 @@ const ROOF: &str = "v 0 0 0 1 0 0\nv 1 0 1 0 1 0\nv 2 0 0 0 0 1\nv 0 1 0 1 0 0\n
                     f 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/5\nt crease 2/1/0 1 4 10\n";
 
 #[test]
-fn sharp_edges_have_two_normals_and_channels_are_written() {
+fn sharp_edges_have_two_normals_and_primvars_are_written() {
     let fixed = ["mesh", "-", "-o", "-", "--rate", "2", "--format"];
     let written = |format: &str| run_on(ROOF, &[&fixed[..], &[format]].concat());
     let text = stdout(&written("obj"));

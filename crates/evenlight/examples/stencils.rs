@@ -1,4 +1,5 @@
-//! Writes limit points as weights of the cage's vertices, once, and applies them to pose after pose.
+//! Writes limit points as weights of the cage's vertices, once, and applies them to pose after
+//! pose.
 //!
 //! ```sh
 //! cargo run --example stencils [CAGE]

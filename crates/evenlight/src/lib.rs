@@ -50,7 +50,7 @@
 //!
 //! let format = MeshFormat::from_path("cube.glb").expect("a known ending");
 //! let mut file = Vec::new();
-//! format.write(&triangles, &triangles.corner_channels(&surface), &mut file)?;
+//! format.write(&triangles, &triangles.corner_primvars(&surface), &mut file)?;
 //! PatchFormat::Json.write(&surface, 6, &mut file)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

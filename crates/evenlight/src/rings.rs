@@ -185,16 +185,16 @@ impl Rings {
     ///
     /// At (0,0) the position is the limit point and the normal the limit normal; derivatives are
     /// NaN there, curvature is [`Rings::center_curvature`] or NaN. Elsewhere curvature is exact to
-    /// rounding at any depth. Derivatives are in world coordinates; beyond ring 500 or so the second
-    /// derivatives may exceed the range of f64.
+    /// rounding at any depth. Derivatives are in world coordinates; beyond ring 500 or so the
+    /// second derivatives may exceed the range of f64.
     pub fn eval(&self, s: usize, a: f64, b: f64) -> Option<SurfacePoint> {
         let is_inside = [a, b].iter().all(|x| (0.0..=1.0).contains(x));
         (s < self.valence() && is_inside).then(|| self.eval_as(s, a, b))
     }
 
     /// Like [`Rings::eval`], but from a given patch, numbered as in [`Rings::patch_domain`]; the
-    /// polynomial is extrapolated if (a,b) is not in the patch. `None` if there is no such patch, or
-    /// a or b is NaN.
+    /// polynomial is extrapolated if (a,b) is not in the patch. `None` if there is no such patch,
+    /// or a or b is NaN.
     pub fn eval_on(
         &self,
         ring: usize,
@@ -255,7 +255,8 @@ impl<const N: usize> Rings<N> {
         Self::start(&net, center, None, rules)
     }
 
-    /// The surface over the net of a fan: two nodes on every line, four in every sector, the vertex.
+    /// The surface over the net of a fan: two nodes on every line, four in every sector, the
+    /// vertex.
     pub(crate) fn over_fan(net: &[[f64; N]], rules: Arc<ValenceRules>) -> Option<Self> {
         let limit = rules.fan_limit()?;
         let center = limit.limit_point(net);
@@ -419,7 +420,8 @@ impl<const N: usize> Rings<N> {
         self.placed(scale, size, &jet)
     }
 
-    /// The scale and the BB coefficients of a patch; those of rings that are not kept stand in `deep`.
+    /// The scale and the BB coefficients of a patch; those of rings that are not kept are put in
+    /// `deep`.
     #[inline]
     fn scale_and_coefs<'a>(
         &'a self,
@@ -464,8 +466,8 @@ impl<const N: usize> Rings<N> {
     }
 
     /// K and H at the limit point: those of q or of the guide, in schemes that have one and where
-    /// there is a tangent plane. In the others curvature has no limit (it grows, or oscillates, from
-    /// ring to ring).
+    /// there is a tangent plane. In the others curvature has no limit (it grows, or oscillates,
+    /// from ring to ring).
     ///
     /// With `guided6` curvature is continuous: these are its limits. With the others it varies
     /// with the direction around the centre, within a band around these values that does not

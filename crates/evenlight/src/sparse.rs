@@ -48,9 +48,9 @@ impl LengthError {
 }
 
 impl Stencils {
-    /// The stencils with these rows, each a list of columns and weights. Columns of a row should rise;
-    /// weights of one column add up. `None` if a column is not below `num_columns`, or there are 2^32
-    /// columns or weights.
+    /// The stencils with these rows, each a list of columns and weights. Columns of a row should
+    /// rise; weights of one column add up. `None` if a column is not below `num_columns`, or there
+    /// are 2^32 columns or weights.
     pub fn from_rows(
         num_columns: usize,
         rows: impl IntoIterator<Item = Vec<(usize, f64)>>,
@@ -86,8 +86,8 @@ impl Stencils {
         end.is_ok()
     }
 
-    /// All rows of some stencils over the same columns, one after the other; `None` if there are too
-    /// many entries to number them.
+    /// All rows of some stencils over the same columns, one after the other; `None` if there are
+    /// too many entries to number them.
     pub(crate) fn joined(num_columns: usize, parts: Vec<Self>) -> Option<Self> {
         let entries = parts.iter().map(|part| part.weights.len()).sum();
         u32::try_from(entries).ok()?;
@@ -119,7 +119,8 @@ impl Stencils {
         self.weights.len()
     }
 
-    /// Where each row begins among [`Stencils::indices`] and [`Stencils::weights`], and their number.
+    /// Where each row begins among [`Stencils::indices`] and [`Stencils::weights`], and their
+    /// number.
     pub fn offsets(&self) -> &[u32] {
         &self.offsets
     }
@@ -201,8 +202,8 @@ impl Stencils {
         Ok(())
     }
 
-    /// [`Stencils::apply_to`] for flat buffers of values and results of `width` numbers each, one after
-    /// the other.
+    /// [`Stencils::apply_to`] for flat buffers of values and results of `width` numbers each, one
+    /// after the other.
     ///
     /// # Errors
     ///
@@ -243,7 +244,8 @@ impl Stencils {
     }
 
     /// The product `self` `right`: the stencils that have the effect of `right` and then of `self`.
-    /// `None` if `right` does not have as many rows as `self` has columns, or there are 2^32 weights.
+    /// `None` if `right` does not have as many rows as `self` has columns, or there are 2^32
+    /// weights.
     pub fn times(&self, right: &Self) -> Option<Self> {
         (self.num_columns == right.num_rows()).then_some(())?;
         let row = |row: usize| {

@@ -1,4 +1,4 @@
-//! Repairs of meshes: what becomes of them, and that tags and channels go with their parts.
+//! Repairs of meshes: what becomes of them, and that tags and primvars go with their parts.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -210,7 +210,7 @@ fn two_cubes_that_share_an_edge_become_two_cubes() {
 }
 
 #[test]
-fn tags_and_channels_go_with_their_parts() {
+fn tags_and_primvars_go_with_their_parts() {
     let mut mesh = Mesh::new(points(7), [[0, 1, 2], [3, 2, 4], [6, 2, 4]]);
     let crease = |a, b| Crease { edge: [VertexId(a), VertexId(b)], sharpness: 2.0 };
     mesh.tags.creases = vec![crease(2, 1), crease(4, 2)];

@@ -138,7 +138,7 @@ fn hold_to_the_contract(bytes: &[u8]) -> bool {
     }
 }
 
-/// The numbers in all channels of vertices. Channels `a_0` and `a_1` may have become one.
+/// The numbers in all primvars of vertices. Primvars `a_0` and `a_1` may have become one.
 fn num_values(mesh: &Mesh) -> usize {
     let of_vertices = mesh.primvars.iter().filter(|p| p.indices.is_empty());
     of_vertices.map(|p| p.values.len()).sum()

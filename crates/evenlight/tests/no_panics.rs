@@ -1,4 +1,5 @@
-//! Nothing that takes an id, a number or a length panics: what does not exist is `None` or an error.
+//! Nothing that takes an id, a number or a length panics: what does not exist is `None` or an
+//! error.
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 use evenlight::cap::{Cap, CapError, CapOptions};

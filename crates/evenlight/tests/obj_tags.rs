@@ -156,7 +156,7 @@ fn faulty_tags_are_named_by_line() {
     }
 }
 
-/// The channel of texture coordinates of a file that must have one.
+/// The primvar of texture coordinates of a file that must have one.
 fn uvs(obj: &Obj) -> &Primvar {
     let [uvs] = &obj.mesh.primvars[..] else { panic!("{:?}", obj.mesh.primvars) };
     assert_eq!((uvs.name.as_str(), uvs.interpolation), ("st", Interpolation::FaceVarying));
@@ -164,7 +164,7 @@ fn uvs(obj: &Obj) -> &Primvar {
 }
 
 #[test]
-fn texture_coordinates_are_a_face_varying_channel() {
+fn texture_coordinates_are_a_face_varying_primvar() {
     let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt .5\nvt 1 1\nvt 9 9 0\n\
                 f 1/1 2/2 3/3\nf 1/-4/ 3/3 4/2\n";
     let obj = obj::read(text.as_bytes()).unwrap();
@@ -209,7 +209,7 @@ fn a_cage_has_what_its_file_says() {
 }
 
 #[test]
-fn channels_without_a_place_are_named_and_left_out() {
+fn primvars_without_a_place_are_named_and_left_out() {
     let mut mesh = Mesh::new(vec![[0.0; 3]; 3], [[0, 1, 2]]);
     let heat = Primvar {
         name: "heat".to_owned(),
@@ -220,7 +220,7 @@ fn channels_without_a_place_are_named_and_left_out() {
     };
     let st = Primvar { name: "st".to_owned(), width: 2, values: vec![0.5; 6], ..heat.clone() };
     mesh.primvars = vec![heat, st];
-    let expected = "OBJ has no place for the channel `heat`: it is left out";
+    let expected = "OBJ has no place for the primvar `heat`: it is left out";
     assert_eq!(obj::omitted(&mesh), [expected]);
     let mut text = Vec::new();
     obj::write(&mesh, &mut text).unwrap();

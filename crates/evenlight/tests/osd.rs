@@ -112,14 +112,14 @@ enum Kind {
     Cap,
 }
 
-/// What is compared. Seams make vertices of channels irregular that those of the surface are not.
+/// What is compared. Seams make vertices of primvars irregular that those of the surface are not.
 #[derive(Clone, Copy)]
 enum Of {
     Positions,
-    Channel,
+    Primvar,
 }
 
-/// Compares a surface or channel that `eval` gives at (face, corner, u, v).
+/// Compares a surface or primvar that `eval` gives at (face, corner, u, v).
 fn compare(
     of: Of,
     surface: &Surface,
@@ -137,7 +137,7 @@ fn compare(
             let found = eval(quad, u, v).unwrap_or_else(missing);
             let is_cap = match of {
                 Of::Positions => is_extraordinary(surface, quad, [u, v]),
-                Of::Channel => {
+                Of::Primvar => {
                     may_be_irregular(surface, face, corner, is_whole, u, v)
                         || is_corner(u, v) && found[1].iter().any(|x| x.is_nan())
                 }
@@ -170,7 +170,7 @@ fn is_extraordinary(surface: &Surface, quad: QuadId, at: [f64; 2]) -> bool {
     sectors.any(|sector| sector.quad == quad && sector.center == at)
 }
 
-/// Whether (u,v) is a corner of the quad that may be irregular in a channel: not the regular vertex
+/// Whether (u,v) is a corner of the quad that may be irregular in a primvar: not the regular vertex
 /// of a smooth region.
 fn may_be_irregular(
     surface: &Surface,
@@ -222,7 +222,7 @@ fn texture_difference(mesh: &Mesh, expected: &Expected, rule: FaceVaryingRule) -
     let cage = Cage::new(mesh).unwrap();
     let surface = Surface::build(cage, options(SchemeKind::CatmullClark)).unwrap();
     let st = surface.primvars().iter().position(|primvar| primvar.name == "st").unwrap();
-    compare(Of::Channel, &surface, expected, |quad, u, v| {
+    compare(Of::Primvar, &surface, expected, |quad, u, v| {
         let jet = surface.eval_primvar::<2>(st, quad, u, v)?;
         Some([jet.p, jet.du, jet.dv].map(|x| x[..2].to_vec()))
     })

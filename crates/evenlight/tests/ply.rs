@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use evenlight::Mesh;
-use evenlight::io::ply::{self, Encoding, Place, Ply};
+use evenlight::io::ply::{self, Encoding, Ply, PlyPlace};
 use evenlight::mesh::{BoundaryRule, Interpolation, Primvar};
 use proptest::prelude::*;
 
@@ -55,7 +55,7 @@ fn written(mesh: &Mesh, encoding: Encoding) -> Vec<u8> {
     bytes
 }
 
-fn channel(name: &str, width: usize, values: &[f64]) -> Primvar {
+fn primvar(name: &str, width: usize, values: &[f64]) -> Primvar {
     let (interpolation, indices) = (Interpolation::Vertex, vec![]);
     Primvar { name: name.to_owned(), interpolation, width, values: values.to_vec(), indices }
 }
@@ -69,17 +69,17 @@ fn a_file_with_everything() {
     let corners = Primvar {
         interpolation: Interpolation::FaceVarying,
         indices: vec![0, 1, 2, 3, 3, 2, 4],
-        ..channel("st", 2, &[0., 0., 1., 0., 1., 1., 0., 1., 0.5, 0.75])
+        ..primvar("st", 2, &[0., 0., 1., 0., 1., 1., 0., 1., 0.5, 0.75])
     };
     let mut colors = [0.0; 15];
     (colors[0], colors[2]) = (1.0, 0.2);
-    let channels = [
+    let primvars = [
         corners,
-        channel("color", 3, &colors),
-        channel("st_", 2, &[0.0, 0.5, 0.25, 0.5, 0.5, 0.5, 0.75, 0.5, 1.0, 0.5]),
-        channel("heat", 1, &[-3.0, 4.0, 5.0, 6.0, 7.0]),
+        primvar("color", 3, &colors),
+        primvar("st_", 2, &[0.0, 0.5, 0.25, 0.5, 0.5, 0.5, 0.75, 0.5, 1.0, 0.5]),
+        primvar("heat", 1, &[-3.0, 4.0, 5.0, 6.0, 7.0]),
     ];
-    assert_eq!(mesh.primvars, channels);
+    assert_eq!(mesh.primvars, primvars);
     let skipped = [
         "the property `friends` of `vertex` is skipped",
         "the element `edge` (1) is skipped",
@@ -139,7 +139,7 @@ fn binary_files_have_the_order_of_bytes_that_they_say() {
     let at = little.len() - 4;
     little[at] = 3;
     let fault = ply::read(&little).unwrap_err();
-    assert_eq!((fault.place, fault.item), (Place::Byte(at), Some(("face".to_owned(), 0))));
+    assert_eq!((fault.place, fault.item), (PlyPlace::Byte(at), Some(("face".to_owned(), 0))));
     for len in header("big").len()..big.len() {
         let fault = ply::read(&big[..len]).unwrap_err();
         assert!(fault.message.starts_with("the file ends before its last element"));
@@ -221,10 +221,10 @@ fn a_count_of_corners_must_not_be_negative() {
 }
 
 #[test]
-fn channels_that_are_not_finite_are_left_out_and_positions_are_judged_with_the_mesh() {
+fn primvars_that_are_not_finite_are_left_out_and_positions_are_judged_with_the_mesh() {
     let Ply { mesh, remarks, .. } = read(&HOUSE.replace(".25 0 .5 4", "nan 0 .5 4"));
     assert!(mesh.primvars.iter().all(|p| p.name != "st_"));
-    let expected = "the channel `st_` has values that are not finite: it is left out";
+    let expected = "the primvar `st_` has values that are not finite: it is left out";
     assert_eq!(remarks.last().unwrap(), expected);
     let mesh = read(&HOUSE.replace("255 0 0", "255 inf 0")).mesh;
     let fault = evenlight::Cage::new(mesh).unwrap_err().to_string();
@@ -236,13 +236,13 @@ fn what_has_no_place_is_named() {
     let mut mesh = read(HOUSE).mesh;
     assert!(ply::omitted(&mesh).is_empty());
     mesh.tags.boundary = BoundaryRule::None;
-    mesh.primvars.push(channel("x", 1, &[0.0; 5]));
+    mesh.primvars.push(primvar("x", 1, &[0.0; 5]));
     mesh.primvars
-        .push(Primvar { interpolation: Interpolation::Varying, ..channel("flow", 1, &[0.0; 5]) });
+        .push(Primvar { interpolation: Interpolation::Varying, ..primvar("flow", 1, &[0.0; 5]) });
     let expected = [
         "PLY has no place for creases, corners, holes and rules: they are left out",
-        "PLY has no place for the channel `x`: it is left out",
-        "PLY has no place for the channel `flow`: it is left out",
+        "PLY has no place for the primvar `x`: it is left out",
+        "PLY has no place for the primvar `flow`: it is left out",
     ];
     assert_eq!(ply::omitted(&mesh), expected);
 }
@@ -287,15 +287,15 @@ fn full_mesh() -> impl Strategy<Value = Mesh> {
                 let mut mesh = Mesh::new(positions, corners);
                 mesh.primvars.extend(uvs(faces.iter().flatten()));
                 let colors: Vec<f64> = colors.iter().map(|&c| f64::from(c) / 255.0).collect();
-                mesh.primvars.push(channel("color", 4, &colors));
-                mesh.primvars.push(channel("flow", 3, &flow));
-                mesh.primvars.push(channel("heat", 1, &heat));
+                mesh.primvars.push(primvar("color", 4, &colors));
+                mesh.primvars.push(primvar("flow", 3, &flow));
+                mesh.primvars.push(primvar("heat", 1, &heat));
                 mesh
             })
     })
 }
 
-/// A face-varying channel in the form that the reader makes: in the order of the corners.
+/// A face-varying primvar in the form that the reader makes: in the order of the corners.
 fn uvs<'a>(corners: impl Iterator<Item = &'a (u32, i32)>) -> Option<Primvar> {
     let (mut known, mut indices) = (Vec::new(), Vec::new());
     for corner in corners {
@@ -307,7 +307,7 @@ fn uvs<'a>(corners: impl Iterator<Item = &'a (u32, i32)>) -> Option<Primvar> {
     }
     let values: Vec<f64> = known.iter().flat_map(|&(v, k)| [v.into(), k.into()]).collect();
     let interpolation = Interpolation::FaceVarying;
-    let uvs = Primvar { interpolation, indices, ..channel("st", 2, &values) };
+    let uvs = Primvar { interpolation, indices, ..primvar("st", 2, &values) };
     (!values.is_empty()).then_some(uvs)
 }
 

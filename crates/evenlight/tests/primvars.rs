@@ -49,10 +49,10 @@ fn agree(a: &[f64], b: &[f64], tolerance: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < tolerance || a.is_nan() && b.is_nan())
 }
 
-/// Positions as a channel are the positions, with derivatives, for channels of one value per vertex
+/// Positions as a primvar are the positions, with derivatives, for primvars of one value per vertex
 /// and of one per corner, of any width, with every scheme.
 #[test]
-fn positions_as_a_channel_are_the_surface() {
+fn positions_as_a_primvar_are_the_surface() {
     for mesh in closed_meshes() {
         let mut mesh = mesh;
         for width in 1..=4 {
@@ -66,7 +66,7 @@ fn positions_as_a_channel_are_the_surface() {
             let surface = Surface::build(cage.clone(), options(scheme)).unwrap();
             for (quad, u, v) in places(&surface) {
                 let jet = surface.eval(quad, u, v).unwrap().jet;
-                for (k, channel) in surface.primvars().iter().enumerate() {
+                for (k, primvar) in surface.primvars().iter().enumerate() {
                     let found = surface.eval_primvar::<4>(k, quad, u, v).unwrap();
                     let rows = [found.p, found.du, found.dv, found.duu, found.duv, found.dvv];
                     for (order, (own, [x, y, z])) in rows.iter().zip(jet.rows()).enumerate() {
@@ -74,9 +74,9 @@ fn positions_as_a_channel_are_the_surface() {
                         // Second derivatives grow towards extraordinary points.
                         let tolerance = if order < 3 { 1e-11 } else { 1e-7 };
                         assert!(
-                            agree(&expected[..channel.width], own, tolerance),
+                            agree(&expected[..primvar.width], own, tolerance),
                             "{scheme:?}, {}, {quad:?}, ({u}, {v}), {order}: {own:?}, not {expected:?}",
-                            channel.name
+                            primvar.name
                         );
                     }
                 }
@@ -85,9 +85,9 @@ fn positions_as_a_channel_are_the_surface() {
     }
 }
 
-/// Channels are closed by caps where the surface is.
+/// Primvars are closed by caps where the surface is.
 #[test]
-fn channels_have_the_caps_of_the_surface() {
+fn primvars_have_the_caps_of_the_surface() {
     let mut mesh = common::mesh("own_blob_quadriflow_300.obj");
     let values = coordinates(&mesh, 3);
     mesh.primvars.push(primvar(Interpolation::Vertex, 3, values, &mesh));
@@ -133,7 +133,7 @@ const TEXTURED: [&str; 6] = [
 
 /// Weights sum to 1 on both sides of every seam: one value everywhere stays so.
 #[test]
-fn a_constant_channel_is_constant() {
+fn a_constant_primvar_is_constant() {
     for (name, rule) in TEXTURED.into_iter().flat_map(|name| RULES.map(|rule| (name, rule))) {
         let mut mesh = feature(name, rule);
         mesh.primvars[0].values.fill(3.0);
@@ -150,7 +150,7 @@ fn a_constant_channel_is_constant() {
 /// The value that an interpolation gives at the corners of faces: with linear boundaries that of
 /// the file at every corner on a seam; with linear everything at every corner.
 #[test]
-fn linear_channels_pass_through_their_values() {
+fn linear_primvars_pass_through_their_values() {
     for name in TEXTURED {
         let mut mesh = feature(name, FaceVaryingRule::All);
         let values = coordinates(&mesh, 3);
@@ -185,7 +185,7 @@ fn what_is_not_there_has_no_value() {
     assert_eq!(surface.eval_primvar::<4>(0, quad, f64::NAN, 0.5), None);
 }
 
-/// Triangles share values where the channel is continuous: the unfolded cube has seams along 7 of
+/// Triangles share values where the primvar is continuous: the unfolded cube has seams along 7 of
 /// its 12 edges, where vertices have the values of both sides.
 #[test]
 fn triangles_have_one_value_per_side_of_a_seam() {
@@ -208,7 +208,7 @@ fn triangles_have_one_value_per_side_of_a_seam() {
     let more = (14 - 8) + 7 * (rate - 1);
     assert_eq!(texture.values.len(), triangles.positions.len() + more);
     let mut text = Vec::new();
-    obj_out::write_textured(&triangles, &triangles.corner_channels(&surface), &mut text).unwrap();
+    obj_out::write_textured(&triangles, &triangles.corner_primvars(&surface), &mut text).unwrap();
     let read = obj::read(&text).unwrap().mesh;
     assert_eq!(read.primvars[0].indices, texture.corners.concat());
     let flat: Vec<f64> = texture.values.iter().flat_map(|value| value[..2].to_vec()).collect();

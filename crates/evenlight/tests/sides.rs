@@ -1,4 +1,4 @@
-//! Triangle meshes at infinitely sharp edges and at the seams of channels.
+//! Triangle meshes at infinitely sharp edges and at the seams of primvars.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -11,7 +11,7 @@ use evenlight::io::{glb, obj, obj_out, ply, ply_out};
 use evenlight::mesh::{Crease, FaceVaryingRule, INFINITELY_SHARP, Interpolation, Mesh, Primvar};
 use evenlight::point::{cross, dot, norm, sub, unit};
 use evenlight::task::Task;
-use evenlight::tessellate::{CornerChannels, TriangleMesh, tessellate};
+use evenlight::tessellate::{CornerPrimvars, TriangleMesh, tessellate};
 use evenlight::{Cage, SchemeKind, Surface, SurfaceOptions, VertexId};
 
 /// Every cage in data/meshes/features, which together have every kind of feature.
@@ -212,32 +212,32 @@ fn painted_cube() -> Mesh {
     let plane = mesh.positions.iter().flat_map(plane).collect();
     let light = |p: &[f64; 3]| p.map(|x| 0.3 + 0.5 * x);
     let light = mesh.positions.iter().flat_map(light).collect();
-    let channel = |name: &str, width, values| Primvar {
+    let primvar = |name: &str, width, values| Primvar {
         name: name.to_owned(),
         interpolation: Interpolation::Vertex,
         width,
         values,
         indices: Vec::new(),
     };
-    mesh.primvars.insert(0, channel("plane", 2, plane));
-    mesh.primvars.push(channel("displayColor", 3, light));
-    mesh.primvars.push(channel("heat", 1, vec![0.5; 8]));
+    mesh.primvars.insert(0, primvar("plane", 2, plane));
+    mesh.primvars.push(primvar("displayColor", 3, light));
+    mesh.primvars.push(primvar("heat", 1, vec![0.5; 8]));
     mesh
 }
 
-fn painted() -> (TriangleMesh, CornerChannels) {
+fn painted() -> (TriangleMesh, CornerPrimvars) {
     let surface = surface(painted_cube());
     let mesh = tessellate(&surface, 4).unwrap();
-    let channels = mesh.corner_channels(&surface);
-    (mesh, channels)
+    let primvars = mesh.corner_primvars(&surface);
+    (mesh, primvars)
 }
 
 #[test]
 fn texture_coordinates_come_first_by_name_and_colours_by_name() {
-    let (_, channels) = painted();
-    let names: Vec<_> = channels.uv_sets.iter().map(|set| (set.name.as_str(), set.width)).collect();
+    let (_, primvars) = painted();
+    let names: Vec<_> = primvars.uv_sets.iter().map(|set| (set.name.as_str(), set.width)).collect();
     assert_eq!(names, [("st", 2), ("plane", 2)]);
-    let color = channels.color.unwrap();
+    let color = primvars.color.unwrap();
     assert_eq!((color.name.as_str(), color.width), ("displayColor", 3));
 }
 
@@ -245,9 +245,9 @@ fn texture_coordinates_come_first_by_name_and_colours_by_name() {
 /// values that the mesh has there.
 #[test]
 fn split_vertices_have_one_value_of_everything() {
-    let (mesh, CornerChannels { uv_sets, color }) = painted();
-    let channels: Vec<_> = uv_sets.iter().chain(&color).collect();
-    let split = mesh.split(&channels).unwrap();
+    let (mesh, CornerPrimvars { uv_sets, color }) = painted();
+    let primvars: Vec<_> = uv_sets.iter().chain(&color).collect();
+    let split = mesh.split(&primvars).unwrap();
     let key = |v: usize| (split.sides[v], split.values.iter().map(|of| of[v]).collect::<Vec<_>>());
     let keys: HashSet<_> = (0..split.sides.len()).map(key).collect();
     assert_eq!(keys.len(), split.sides.len());
@@ -255,7 +255,7 @@ fn split_vertices_have_one_value_of_everything() {
     for (t, triangle) in split.triangles.iter().enumerate() {
         for (k, &v) in triangle.iter().enumerate() {
             is_used[v as usize] = true;
-            let values: Vec<u32> = channels.iter().map(|channel| channel.corners[t][k]).collect();
+            let values: Vec<u32> = primvars.iter().map(|primvar| primvar.corners[t][k]).collect();
             assert_eq!(key(v as usize), (mesh.sides()[t][k], values));
         }
     }
@@ -272,12 +272,12 @@ fn vertices_are_split_along_seams_of_smooth_surfaces_too() {
     cage.tags.creases.clear();
     let surface = surface(cage);
     let mesh = tessellate(&surface, 4).unwrap();
-    let channels = mesh.corner_channels(&surface);
+    let primvars = mesh.corner_primvars(&surface);
     assert!(!mesh.is_folded());
-    let split = mesh.split(&channels.uv_sets.iter().collect::<Vec<_>>()).unwrap();
+    let split = mesh.split(&primvars.uv_sets.iter().collect::<Vec<_>>()).unwrap();
     // 14 values at 8 vertices, and 3 vertices along each of 7 seams.
     assert_eq!(split.sides.len(), mesh.positions.len() + (14 - 8) + 7 * 3);
-    assert_eq!(mesh.split(&[&channels.uv_sets[1]]).unwrap().triangles, mesh.triangles);
+    assert_eq!(mesh.split(&[&primvars.uv_sets[1]]).unwrap().triangles, mesh.triangles);
 }
 
 /// What a reader of glTF finds, in 32 bits.
@@ -289,9 +289,9 @@ struct Found {
     triangles: Vec<[u32; 3]>,
 }
 
-fn glb_bytes(mesh: &TriangleMesh, channels: &CornerChannels) -> Vec<u8> {
+fn glb_bytes(mesh: &TriangleMesh, primvars: &CornerPrimvars) -> Vec<u8> {
     let mut bytes = Vec::new();
-    glb::write_textured(mesh, channels, &mut bytes).unwrap();
+    glb::write_textured(mesh, primvars, &mut bytes).unwrap();
     bytes
 }
 
@@ -317,8 +317,8 @@ fn read_glb(bytes: &[u8]) -> Found {
 
 #[test]
 fn welding_a_glb_by_position_gives_the_watertight_mesh() {
-    let (mesh, channels) = painted();
-    let found = read_glb(&glb_bytes(&mesh, &channels));
+    let (mesh, primvars) = painted();
+    let found = read_glb(&glb_bytes(&mesh, &primvars));
     assert!(found.positions.len() > mesh.positions.len());
     let mut vertices = HashMap::new();
     for (v, p) in mesh.positions.iter().enumerate() {
@@ -333,11 +333,11 @@ fn welding_a_glb_by_position_gives_the_watertight_mesh() {
     assert!(edges.iter().all(|&[a, b]| edges.contains(&[b, a])));
 }
 
-/// A channel that is (x + 2, y) in the cage is so on the surface; the axis of V runs down.
+/// A primvar that is (x + 2, y) in the cage is so on the surface; the axis of V runs down.
 #[test]
-fn a_glb_has_every_channel_at_every_vertex() {
-    let (mesh, channels) = painted();
-    let found = read_glb(&glb_bytes(&mesh, &channels));
+fn a_glb_has_every_primvar_at_every_vertex() {
+    let (mesh, primvars) = painted();
+    let found = read_glb(&glb_bytes(&mesh, &primvars));
     let count = found.positions.len();
     assert!(
         [found.normals.len(), found.uvs[0].len(), found.uvs[1].len(), found.colors.len()]
@@ -353,7 +353,7 @@ fn a_glb_has_every_channel_at_every_vertex() {
     }
     for (t, triangle) in found.triangles.iter().enumerate() {
         for (k, &v) in triangle.iter().enumerate() {
-            let [u, w, ..] = channels.uv_sets[0].values[channels.uv_sets[0].corners[t][k] as usize];
+            let [u, w, ..] = primvars.uv_sets[0].values[primvars.uv_sets[0].corners[t][k] as usize];
             assert_eq!(found.uvs[0][v as usize], [u as f32, (1.0 - w) as f32]);
             let normal = mesh.normals[mesh.sides()[t][k] as usize];
             assert_eq!(found.normals[v as usize], normal.map(|x| x as f32));
@@ -363,9 +363,9 @@ fn a_glb_has_every_channel_at_every_vertex() {
 
 #[test]
 fn colours_are_cut_to_what_the_format_demands() {
-    let (mesh, mut channels) = painted();
-    channels.color.as_mut().unwrap().values[0] = [-0.5, 7.0, f64::NAN, 0.0];
-    let found = read_glb(&glb_bytes(&mesh, &channels));
+    let (mesh, mut primvars) = painted();
+    primvars.color.as_mut().unwrap().values[0] = [-0.5, 7.0, f64::NAN, 0.0];
+    let found = read_glb(&glb_bytes(&mesh, &primvars));
     assert!(found.colors.contains(&[0.0, 1.0, 0.0]));
     assert!(found.colors.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
 }
@@ -379,8 +379,8 @@ fn opacity_is_kept_or_missed() {
     color.width = 4;
     let surface = surface(cage);
     let mesh = tessellate(&surface, 2).unwrap();
-    let channels = mesh.corner_channels(&surface);
-    let bytes = glb_bytes(&mesh, &channels);
+    let primvars = mesh.corner_primvars(&surface);
+    let bytes = glb_bytes(&mesh, &primvars);
     let gltf = gltf::Gltf::from_slice(&bytes).unwrap();
     let primitive = gltf.meshes().next().unwrap().primitives().next().unwrap();
     let reader = primitive.reader(|_| gltf.blob.as_deref());
@@ -389,28 +389,28 @@ fn opacity_is_kept_or_missed() {
     };
     assert!(colors.into_iter().all(|color| (color[3] - 0.25).abs() < 1e-6));
     let mut bytes = Vec::new();
-    ply_out::write_textured(&mesh, &channels, &mut bytes).unwrap();
+    ply_out::write_textured(&mesh, &primvars, &mut bytes).unwrap();
     let read = ply::read(&bytes).unwrap().mesh;
     let color = read.primvars.iter().find(|p| p.name == "color").unwrap();
     assert!(color.width == 4 && color.values.iter().skip(3).step_by(4).all(|&a| a == 64.0 / 255.0));
-    let omitted = obj_out::omitted(&mesh, &channels);
-    assert_eq!(omitted[1], "OBJ has no opacity: that of the channel `displayColor` is left out");
+    let omitted = obj_out::omitted(&mesh, &primvars);
+    assert_eq!(omitted[1], "OBJ has no opacity: that of the primvar `displayColor` is left out");
 }
 
 #[test]
-fn channels_of_another_mesh_are_an_error() {
-    let (_, channels) = painted();
+fn primvars_of_another_mesh_are_an_error() {
+    let (_, primvars) = painted();
     let other = tessellate(&surface(sharp_cube()), 2).unwrap();
-    let error = glb::write_textured(&other, &channels, &mut Vec::new()).unwrap_err();
-    assert_eq!(error.to_string(), "the channel `st` is not of this mesh");
+    let error = glb::write_textured(&other, &primvars, &mut Vec::new()).unwrap_err();
+    assert_eq!(error.to_string(), "the primvar `st` is not of this mesh");
 }
 
 /// OBJ has numbers of their own for positions, texture coordinates and normals.
 #[test]
 fn obj_has_shared_positions_and_the_normals_of_all_sides() {
-    let (mesh, channels) = painted();
+    let (mesh, primvars) = painted();
     let mut bytes = Vec::new();
-    obj_out::write_textured(&mesh, &channels, &mut bytes).unwrap();
+    obj_out::write_textured(&mesh, &primvars, &mut bytes).unwrap();
     let read = obj::read(&bytes).unwrap().mesh;
     assert_eq!((&read.positions, read.faces.len()), (&mesh.positions, mesh.triangles.len()));
     let text = String::from_utf8(bytes).unwrap();
@@ -426,43 +426,43 @@ fn obj_has_shared_positions_and_the_normals_of_all_sides() {
     for (t, face) in faces.enumerate() {
         for (k, corner) in face.split(' ').enumerate() {
             let expected =
-                [mesh.triangles[t][k], channels.uv_sets[0].corners[t][k], mesh.sides()[t][k]];
+                [mesh.triangles[t][k], primvars.uv_sets[0].corners[t][k], mesh.sides()[t][k]];
             assert_eq!(corner, expected.map(|n| (n + 1).to_string()).join("/"));
         }
     }
     let uvs: Vec<_> =
-        channels.uv_sets[0].values.iter().flat_map(|value| &value[..2]).copied().collect();
+        primvars.uv_sets[0].values.iter().flat_map(|value| &value[..2]).copied().collect();
     assert_eq!((read.primvars[0].name.as_str(), &read.primvars[0].values), ("st", &uvs));
-    let color = channels.color.as_ref().unwrap();
+    let color = primvars.color.as_ref().unwrap();
     let numbers = color.of_vertices(&mesh).unwrap();
     let colors: Vec<_> =
         numbers.iter().flat_map(|&k| &color.values[k as usize][..3]).copied().collect();
     assert_eq!((read.primvars[1].name.as_str(), &read.primvars[1].values), ("color", &colors));
     assert_eq!(
-        obj_out::omitted(&mesh, &channels),
-        ["OBJ has one set of texture coordinates: the channel `plane` is left out"]
+        obj_out::omitted(&mesh, &primvars),
+        ["OBJ has one set of texture coordinates: the primvar `plane` is left out"]
     );
 }
 
 #[test]
 fn ply_has_the_texture_of_corners_and_the_colours_of_vertices() {
-    let (mesh, channels) = painted();
+    let (mesh, primvars) = painted();
     let mut bytes = Vec::new();
-    ply_out::write_textured(&mesh, &channels, &mut bytes).unwrap();
+    ply_out::write_textured(&mesh, &primvars, &mut bytes).unwrap();
     let read = ply::read(&bytes).unwrap().mesh;
     assert_eq!(read.positions, mesh.positions);
     let find = |name: &str| read.primvars.iter().find(|p| p.name == name).unwrap();
     let (texture, color) = (find("st"), find("color"));
-    let mut corners = channels.uv_sets[0].corners.concat().into_iter();
+    let mut corners = primvars.uv_sets[0].corners.concat().into_iter();
     for &index in &texture.indices {
-        let [u, v, ..] = channels.uv_sets[0].values[corners.next().unwrap() as usize];
+        let [u, v, ..] = primvars.uv_sets[0].values[corners.next().unwrap() as usize];
         let found = &texture.values[2 * index as usize..][..2];
         assert_eq!(found, [u, v].map(|x| f64::from(x as f32)));
     }
     for (light, p) in color.values.chunks_exact(3).zip(&mesh.positions) {
         assert!((0..3).all(|k| (light[k] - (0.3 + 0.5 * p[k])).abs() < 0.5 / 255.0 + 1e-12));
     }
-    let omitted = ply_out::omitted(&mesh, &channels);
+    let omitted = ply_out::omitted(&mesh, &primvars);
     assert!(omitted.len() == 2 && omitted[0].starts_with("PLY has one normal for a vertex"));
 }
 
@@ -488,7 +488,7 @@ fn the_number_of_threads_does_not_change_a_byte() {
     let bytes = [1, 2, 5].map(|num_threads| {
         Task::new().threads(num_threads).run(|| {
             let mesh = tessellate(&surface, 7).unwrap();
-            glb_bytes(&mesh, &mesh.corner_channels(&surface))
+            glb_bytes(&mesh, &mesh.corner_primvars(&surface))
         })
     });
     assert!(bytes[0] == bytes[1] && bytes[1] == bytes[2]);
@@ -508,8 +508,8 @@ fn a_seam_of_a_quarter_beside_a_distant_island_remains() {
     let (cage, _) = Format::Obj.read_cage(text.as_bytes()).unwrap();
     let surface = Surface::build(cage, SurfaceOptions::default()).unwrap();
     let mesh = tessellate(&surface, 4).unwrap();
-    let channels = mesh.corner_channels(&surface);
-    let split = mesh.split(&[&channels.uv_sets[0]]).unwrap();
+    let primvars = mesh.corner_primvars(&surface);
+    let split = mesh.split(&[&primvars.uv_sets[0]]).unwrap();
     assert_eq!(mesh.positions.len(), 2 * 25 - 5 + 25);
     assert_eq!(split.sides.len(), 3 * 25, "the five vertices on the seam are two each");
 }

@@ -1,5 +1,5 @@
-//! Stencils: applied to the values of the cage they are what `Surface` says, for every scheme, tag and
-//! kind of primvar; and nothing that they are asked for makes them panic.
+//! Stencils: applied to the values of the cage they are what `Surface` says, for every scheme, tag
+//! and kind of primvar; and nothing that they are asked for makes them panic.
 #![allow(clippy::unwrap_used, reason = "a test that cannot make its cages fails")]
 
 mod common;
@@ -16,7 +16,8 @@ use evenlight::surface::{ArrayError, CreaseRings, Layout, Role, row_width};
 use evenlight::task::Task;
 use evenlight::{Cage, FaceId, Mesh, QuadId, SchemeKind, Surface, SurfaceOptions};
 
-/// What results may differ by, as a part of the largest value and of the scale of a row; 2e-14 is seen.
+/// What results may differ by, as a part of the largest value and of the scale of a row; 2e-14 is
+/// seen.
 const ROUNDING: f64 = 1e-13;
 
 type Place = (QuadId, f64, f64);
@@ -79,11 +80,11 @@ fn places(surface: &Surface) -> Vec<Place> {
     places
 }
 
-/// What the rows of places are made of before anything cancels, by the largest weight of a vertex: the
-/// factors of derivatives in the pieces of their quads.
+/// What the rows of places are made of before anything cancels, by the largest weight of a vertex:
+/// the factors of derivatives in the pieces of their quads.
 ///
-/// In ring l around a point derivatives of order k are (lambda / sigma^k)^l times those of ring 0. A
-/// part of them may cancel: the tangents along a crease have no second derivative along it.
+/// In ring l around a point derivatives of order k are (lambda / sigma^k)^l times those of ring 0.
+/// A part of them may cancel: the tangents along a crease have no second derivative along it.
 fn scales(surface: &Surface, places: &[Place], order: usize) -> Vec<f64> {
     let of_place = |&(quad, u, v): &Place| {
         let points = surface.extraordinary_points().iter().enumerate();
@@ -478,7 +479,7 @@ fn primvars_are_those_of_the_surface() {
     for (rule, scheme) in RULES.into_iter().flat_map(|rule| SchemeKind::ALL.map(|s| (rule, s))) {
         for (name, cage) in textured(rule) {
             let surface = Surface::build(cage, options(scheme)).unwrap();
-            // Close to points at seams derivatives of channels have lost digits themselves.
+            // Close to points at seams derivatives of primvars have lost digits themselves.
             let is_deep = |&(_, u, v): &Place| u * (1.0 - u) * v * (1.0 - v) < 1e-9;
             let mut places = places(&surface);
             places.retain(|place| !is_deep(place) || place.1 * (1.0 - place.1) == 0.0);
@@ -490,7 +491,7 @@ fn primvars_are_those_of_the_surface() {
                 assert_eq!(stencils.num_columns() * width, values.len());
                 let mut results = vec![0.0; stencils.num_rows() * width];
                 stencils.apply_flat(width, values, &mut results).unwrap();
-                // Channels have points of their own at seams, at which second derivatives grow.
+                // Primvars have points of their own at seams, at which second derivatives grow.
                 let largest = values.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
                 for (&(quad, u, v), found) in places.iter().zip(results.chunks(6 * width)) {
                     let rows = surface.eval_primvar::<4>(k, quad, u, v).unwrap().rows();
@@ -556,8 +557,8 @@ fn patches_of_primvars_have_the_limits() {
     }
 }
 
-/// In the plane the surface of a regular grid is the grid: u and v are reproduced, and their squares
-/// up to the constant that splines add.
+/// In the plane the surface of a regular grid is the grid: u and v are reproduced, and their
+/// squares up to the constant that splines add.
 #[test]
 fn a_regular_grid_is_reproduced() {
     let n = 6;

@@ -407,13 +407,13 @@ fn sets_of_texture_coordinates_keep_their_role() {
 }
 
 #[test]
-fn channels_without_a_place_are_named() {
+fn primvars_without_a_place_are_named() {
     let mut mesh = house();
     mesh.primvars[0].name = "map 1".to_owned();
     mesh.primvars[2].values.pop();
     let expected = [
-        "the channel `map 1` is not fit for a primvar of USD: it is left out",
-        "the channel `heat` is not fit for a primvar of USD: it is left out",
+        "the primvar `map 1` is not fit for a primvar of USD: it is left out",
+        "the primvar `heat` is not fit for a primvar of USD: it is left out",
     ];
     assert_eq!(usd::omitted(&mesh), expected);
     assert_eq!(read(&written(&mesh)).mesh.primvars, [mesh.primvars[1].clone()]);
@@ -462,7 +462,7 @@ fn full_mesh() -> impl Strategy<Value = Mesh> {
             let mut mesh = Mesh::new(positions, corners);
             mesh.tags = tags;
             let indices = faces.iter().flatten().map(|c| c.1).collect();
-            let channel = |name: &str, interpolation, width, values| Primvar {
+            let primvar = |name: &str, interpolation, width, values| Primvar {
                 name: name.to_owned(),
                 interpolation,
                 width,
@@ -470,9 +470,9 @@ fn full_mesh() -> impl Strategy<Value = Mesh> {
                 indices: vec![],
             };
             mesh.primvars = vec![
-                channel("color", Interpolation::Vertex, 3, colors),
-                Primvar { indices, ..channel("a:b", Interpolation::FaceVarying, 4, corner_values) },
-                channel("heat", Interpolation::Varying, 1, heat),
+                primvar("color", Interpolation::Vertex, 3, colors),
+                Primvar { indices, ..primvar("a:b", Interpolation::FaceVarying, 4, corner_values) },
+                primvar("heat", Interpolation::Varying, 1, heat),
             ];
             mesh
         })

@@ -62,7 +62,7 @@ pub fn run(cages: &[PathBuf]) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Positions and faces of a file alone: creases and channels are not measured.
+/// Positions and faces of a file alone: creases and primvars are not measured.
 fn read(path: &Path) -> Result<Mesh, Box<dyn Error>> {
     let mesh = obj::read(&fs::read(path)?)?.mesh;
     Ok(Mesh { positions: mesh.positions, faces: mesh.faces, ..Mesh::default() })

@@ -24,8 +24,8 @@ const MAX_DEPTH: usize = 8;
 /// has some hundred terms of either sign.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether the Jacobian of (x,y) of `patch` is proved to be positive on the whole unit square. Not so
-/// if it is of degree 0 in a parameter: then it has no area.
+/// Whether the Jacobian of (x,y) of `patch` is proved to be positive on the whole unit square. Not
+/// so if it is of degree 0 in a parameter: then it has no area.
 pub fn jacobian_is_positive(patch: &Patch) -> bool {
     if patch.degree().contains(&0) {
         return false;

@@ -95,8 +95,8 @@ impl Eigenfunctions {
         self.guides.is_empty()
     }
 
-    /// The guide that function `k` follows: its degree s, mode and parity. `None` if `k` is not below
-    /// [`Eigenfunctions::len`]; so do all methods that take a `k`.
+    /// The guide that function `k` follows: its degree s, mode and parity. `None` if `k` is not
+    /// below [`Eigenfunctions::len`]; so do all methods that take a `k`.
     pub fn guide(&self, k: usize) -> Option<&HomogeneousGuide> {
         self.guides.get(k)
     }
@@ -138,7 +138,8 @@ impl Eigenfunctions {
     }
 
     /// The part [[a0, a1], [b0, b1]] of a sector that patch `which` of ring 0 covers; as in
-    /// [`Rings::patch_domain`](crate::rings::Rings::patch_domain). `None` if there is no such patch.
+    /// [`Rings::patch_domain`](crate::rings::Rings::patch_domain). `None` if there is no such
+    /// patch.
     pub fn patch_domain(&self, which: usize) -> Option<[[f64; 2]; 2]> {
         (which < self.patches_per_sector()).then(|| self.domain(which))
     }
@@ -175,8 +176,8 @@ impl Eigenfunctions {
     }
 
     /// Value and derivatives by a and b of function `k` at (a,b) of sector `sector`. At the centre
-    /// (0,0) there is only the value, the derivatives are NaN, but for the constant. `None` if there
-    /// is no such function or sector, or a, b are not from 0 to 1.
+    /// (0,0) there is only the value, the derivatives are NaN, but for the constant. `None` if
+    /// there is no such function or sector, or a, b are not from 0 to 1.
     pub fn eval(&self, k: usize, sector: usize, a: f64, b: f64) -> Option<Jet<1>> {
         let is_inside = [a, b].iter().all(|x| (0.0..=1.0).contains(x));
         if k >= self.len() || sector >= self.valence() || !is_inside {
@@ -238,8 +239,8 @@ impl Eigenfunctions {
         (limit[0], net.into_flattened())
     }
 
-    /// The nodes of function `k` in front of ring 0. For the constant, which nets leave out, all are
-    /// zero.
+    /// The nodes of function `k` in front of ring 0. For the constant, which nets leave out, all
+    /// are zero.
     pub(super) fn net(&self, k: usize) -> Vec<[f64; 1]> {
         let (rules, guide) = (&self.rules, &self.guides[k]);
         let monomials = guide_monomials();

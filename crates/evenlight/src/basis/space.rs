@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::eigen::Eigenfunctions;
-use super::layout::{Combination, LAYERS, Layout};
+use super::slots::{Combination, LAYERS, Slots};
 use super::{jet_of_patch, value_alone};
 use crate::net::CNET_NODES;
 use crate::patch::Jet;
@@ -59,12 +59,12 @@ pub struct RefinableSpace {
 #[derive(Debug)]
 struct Common {
     eigen: Eigenfunctions,
-    layout: Layout,
+    layout: Slots,
     /// For each square and coefficient what it is made of.
     patches: [Vec<Source>; 3],
 }
 
-/// What decides on a coefficient of a ring; numbers are slots of [`Layout`].
+/// What decides on a coefficient of a ring; numbers are slots of [`Slots`].
 #[derive(Debug)]
 enum Source {
     /// The level before the ring.
@@ -136,8 +136,8 @@ impl Element {
 }
 
 impl RefinableSpace {
-    /// The space V_m, m = `rings`, of `guided5` or `guided6` at `valence`; `None` for other schemes,
-    /// valences without rules, and more than [`MAX_RINGS`] rings.
+    /// The space V_m, m = `rings`, of `guided5` or `guided6` at `valence`; `None` for other
+    /// schemes, valences without rules, and more than [`MAX_RINGS`] rings.
     ///
     /// The splines of `guided3` and `guided4` are made of bi-5 rings, ring by ring: they have no
     /// functions of their own.
@@ -155,7 +155,7 @@ impl RefinableSpace {
     ) -> Option<Self> {
         let degree = kind.guided_degree().filter(|&degree| degree >= 5 && rings <= MAX_RINGS)?;
         let eigen = Eigenfunctions::with_contraction(kind, contraction, valence)?;
-        let layout = Layout::new(degree, eigen.sigma());
+        let layout = Slots::new(degree, eigen.sigma());
         let patches = [0, 1, 2].map(|square| sources(&eigen, layout, square));
         Some(Self { common: Arc::new(Common { eigen, layout, patches }), rings })
     }
@@ -362,8 +362,8 @@ impl RefinableSpace {
     /// The sum of all functions times `values` at (a,b) of a sector, with its derivatives by a and
     /// b. At the centre (0,0) it has only its value; the derivatives are NaN.
     ///
-    /// `None` if there is no such sector, a, b are not from 0 to 1, or there is not one value for each
-    /// function. Many points on one patch are cheaper with [`RefinableSpace::element`].
+    /// `None` if there is no such sector, a, b are not from 0 to 1, or there is not one value for
+    /// each function. Many points on one patch are cheaper with [`RefinableSpace::element`].
     pub fn eval_sum(&self, values: &[f64], sector: usize, a: f64, b: f64) -> Option<Jet<1>> {
         if values.len() != self.dim() {
             return None;
@@ -544,7 +544,7 @@ impl RefinableSpace {
 }
 
 /// What the coefficients of a square are made of.
-fn sources(eigen: &Eigenfunctions, layout: Layout, square: usize) -> Vec<Source> {
+fn sources(eigen: &Eigenfunctions, layout: Slots, square: usize) -> Vec<Source> {
     let order = layout.degree + 1;
     let coefs = (0..order * order).map(|at| (at, [at / order, at % order]));
     let source = |(at, index)| match layout.coefficient((square, index)) {

@@ -14,17 +14,18 @@
 //! ```
 //!
 //! Caps join the last ring, or for K = 0 the surrounding surface, with first derivatives; position
-//! and tangent plane are common on the lines; and all sectors have one quadratic at the centre, that
-//! of the scheme's q or guide if it has one, so that curvature exists there. What freedom is left
-//! follows the guide or bends least (module `rules`).
+//! and tangent plane are common on the lines; and all sectors have one quadratic at the centre,
+//! that of the scheme's q or guide if it has one, so that curvature exists there. What freedom is
+//! left follows the guide or bends least (module `rules`).
 //!
 //! If the patches of a ring are split themselves, a cap is split in the smallest multiple of that.
 //!
-//! All this is for points that are smooth all around. At boundaries, creases, corners and darts, and at
-//! valences 2, above [`MAX_VALENCE`], and 4 (of nets by themselves; in cages that is regular), there is one
-//! bi-4 patch per sector (bi-3, if that is asked for), with first derivatives to the last ring, exact
-//! creases, and at fans common tangent planes on the lines if the point has a tangent plane (module
-//! `plain`); behind fair rings beside a crease there are 2 x 2 (module `fair`).
+//! All this is for points that are smooth all around. At boundaries, creases, corners and darts,
+//! and at valences 2, above [`MAX_VALENCE`], and 4 (of nets by themselves; in cages that is
+//! regular), there is one bi-4 patch per sector (bi-3, if that is asked for), with first
+//! derivatives to the last ring, exact creases, and at fans common tangent planes on the lines if
+//! the point has a tangent plane (module `plain`); behind fair rings beside a crease there are 2 x
+//! 2 (module `fair`).
 
 mod border;
 mod fair;
@@ -45,7 +46,7 @@ use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::rings::{MAX_RINGS, Rings, ValenceRules};
 use crate::scheme::{Rules, SchemeKind};
 use fair::FairCap;
-pub(crate) use plain::Lines;
+pub(crate) use plain::FanLines;
 use plain::PlainCap;
 use round::RoundCap;
 use spline::Space;
@@ -133,8 +134,8 @@ pub enum CapError {
     },
 }
 
-/// The highest valence with caps of the kind asked for: beyond it sectors are slivers, the rules would
-/// take seconds, and caps are plain.
+/// The highest valence with caps of the kind asked for: beyond it sectors are slivers, the rules
+/// would take seconds, and caps are plain.
 pub const MAX_VALENCE: usize = 64;
 
 /// The name in commands and files.
@@ -221,20 +222,21 @@ pub struct Cap<const N: usize = 3> {
 }
 
 impl Cap {
-    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`, the hole being
-    /// the unit square; derivatives are by the sector's own parameters, as those of the rings.
+    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`, the hole
+    /// being the unit square; derivatives are by the sector's own parameters, as those of the
+    /// rings.
     ///
     /// `rings` must be those that the cap was made for. At the centre the curvature is that of the
-    /// common quadratic. Around fans and other plain caps it has the limit normal, if there is one, and
-    /// no curvature (NaN), as sectors have different ones. `None` if `s` is not below the valence or
-    /// a, b are not from 0 to 1.
+    /// common quadratic. Around fans and other plain caps it has the limit normal, if there is one,
+    /// and no curvature (NaN), as sectors have different ones. `None` if `s` is not below the
+    /// valence or a, b are not from 0 to 1.
     pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> Option<SurfacePoint> {
         let is_inside = at.iter().all(|x| (0.0..=1.0).contains(x));
         (self.has_patch(s, 0) && is_inside).then(|| self.eval_as(rings, s, at))
     }
 
-    /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it. `None`
-    /// if there is no such patch, or a or b is NaN.
+    /// Like [`Cap::eval`], but from a given patch, which is extrapolated if (a,b) is not in it.
+    /// `None` if there is no such patch, or a or b is NaN.
     pub fn eval_on(
         &self,
         rings: &Rings,

@@ -13,15 +13,15 @@
 //!      line s
 //! ```
 //!
-//! *Lines.* A crease or boundary is a cubic up to the vertex, so it stays exactly what it is, and the
-//! surfaces on both sides of it go on sharing it. Other lines are cubics too, with the tangents
+//! *Lines.* A crease or boundary is a cubic up to the vertex, so it stays exactly what it is, and
+//! the surfaces on both sides of it go on sharing it. Other lines are cubics too, with the tangents
 //!
 //! ```text
 //!   T_s = cos(s theta) X + sin(s theta) Y,     theta = pi/f between two creases, 2 pi/f at a dart,
 //! ```
 //!
-//! where X and Y are the directions of the limit tangent plane, as long as they must be for the lines
-//! of the eigenvectors to be parabolas. Without a tangent plane every line is a parabola.
+//! where X and Y are the directions of the limit tangent plane, as long as they must be for the
+//! lines of the eigenvectors to be parabolas. Without a tangent plane every line is a parabola.
 //!
 //! *Inside.* The bi-3 patch with the least third differences is raised to bi-4 and moved as little
 //! as possible, so that for sectors a ahead and b behind a line
@@ -30,11 +30,11 @@
 //!   a_v + b_v = (1-u)^2 W(u),     W = 2 cos(theta) a_u [KP18-Guided, eq. 6],
 //! ```
 //!
-//! hence with one tangent plane. That asks for the sum of the two coefficients beside each of a line;
-//! the sums of the twists t_s beside the centre form a chain t_0 + t_1, t_1 + t_2, ... from the first
-//! to the last line. Bi-3 patches take the value at the centre, W = 2 cos(theta) T_s, and come close.
-//! Without a tangent plane W = T_(s-1) + T_(s+1), and twists meet the sums half way, as a chain
-//! would alternate.
+//! hence with one tangent plane. That asks for the sum of the two coefficients beside each of a
+//! line; the sums of the twists t_s beside the centre form a chain t_0 + t_1, t_1 + t_2, ... from
+//! the first to the last line. Bi-3 patches take the value at the centre, W = 2 cos(theta) T_s, and
+//! come close. Without a tangent plane W = T_(s-1) + T_(s+1), and twists meet the sums half way, as
+//! a chain would alternate.
 
 use std::f64::consts::{PI, TAU};
 
@@ -58,7 +58,7 @@ pub(super) fn is_plain(rules: &ValenceRules) -> bool {
 #[derive(Clone, Debug)]
 pub(crate) struct PlainCap {
     degree: usize,
-    lines: Lines,
+    lines: FanLines,
     border: Border,
     /// Whether there is a tangent plane, in which the lines leave the centre in equal angles.
     has_plane: bool,
@@ -68,7 +68,7 @@ pub(crate) struct PlainCap {
 
 /// The lines of a fan of sectors: line s is the first of sector s.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lines {
+pub(crate) struct FanLines {
     sectors: usize,
     /// Whether the last sector ends at line 0, not at one more.
     is_closed: bool,
@@ -98,11 +98,12 @@ impl PlainCap {
         cap
     }
 
-    /// Inside fair rings beside a crease, which have a tangent plane and find the tangents themselves.
+    /// Inside fair rings beside a crease, which have a tangent plane and find the tangents
+    /// themselves.
     pub(super) fn inside(rules: &ValenceRules, kind: CapKind) -> Self {
         let border = Border::new(3, &domains(rules.rules()), Space::polynomials(3));
         let degree = if kind == CapKind::Bi3 { 3 } else { 4 };
-        Self { degree, lines: Lines::of(rules), border, has_plane: true, directions: None }
+        Self { degree, lines: FanLines::of(rules), border, has_plane: true, directions: None }
     }
 
     pub(super) fn space(&self) -> Space {
@@ -224,7 +225,7 @@ impl PlainCap {
     }
 }
 
-impl Lines {
+impl FanLines {
     pub(crate) fn of(rules: &ValenceRules) -> Self {
         let sectors = rules.rules().valence;
         let shape = rules.fan_limit().map(FanLimit::shape);
@@ -331,7 +332,7 @@ impl Lines {
 pub(super) struct LineEnd<const N: usize>([[f64; N]; 3]);
 
 impl<const N: usize> LineEnd<N> {
-    pub(super) fn of(outside: &[Vec<[f64; N]>], lines: Lines, line: usize) -> Self {
+    pub(super) fn of(outside: &[Vec<[f64; N]>], lines: FanLines, line: usize) -> Self {
         // The last line of an open fan is the b-axis of the last sector.
         let (sector, edge) = if line == lines.sectors { (line - 1, 1) } else { (line, 0) };
         Self([0, 1, 2].map(|layer| outside[sector][at(edge, layer, 0)]))
@@ -379,7 +380,8 @@ fn bicubic<const N: usize>(outside: &[[f64; N]], [first, last]: [[f64; N]; 2]) -
     net
 }
 
-/// Steps of a power iteration: eigenvectors to half their digits at least, which is plenty for a length.
+/// Steps of a power iteration: eigenvectors to half their digits at least, which is plenty for a
+/// length.
 const POWER_STEPS: usize = 60;
 
 /// For the right eigenvector on which a left one is 1, the tangents of all lines as parabolas.
@@ -388,7 +390,7 @@ fn line_ends_of_eigenvector(
     rules: &Rules,
     limit: &FanLimit,
     border: &Border,
-    lines: Lines,
+    lines: FanLines,
 ) -> Vec<f64> {
     // The left eigenvector is a net with the same symmetry, and has a part of the right one.
     let mut net = vec![[0.0]; rules.num_nodes()];

@@ -7,8 +7,8 @@
 //! the centre, the bisectrix of sector 0 along the real axis, and the ends of the outer edges at
 //! distance 1.
 //!
-//! A surface x(u,v) that is a polynomial of zeta bends no less and no more than that: derivatives of
-//! x by zeta are what fairness is measured in.
+//! A surface x(u,v) that is a polynomial of zeta bends no less and no more than that: derivatives
+//! of x by zeta are what fairness is measured in.
 
 use super::sector::{Complex, LAYERS, Sector};
 use super::spline::inverted;

@@ -126,8 +126,8 @@ fn cuts_fit(rules: &Rules, space: Space) -> bool {
     domains(rules).into_iter().all(fits)
 }
 
-/// chi(1,0) turned by half a sector: chi over a coordinate whose real axis is the bisectrix of sector
-/// 0 and in which chi(1,0) has distance 1. `ring` is sector 0 of the characteristic ring.
+/// chi(1,0) turned by half a sector: chi over a coordinate whose real axis is the bisectrix of
+/// sector 0 and in which chi(1,0) has distance 1. `ring` is sector 0 of the characteristic ring.
 fn kappa(rules: &Rules, ring: &[Vec<Vector>]) -> Complex {
     let at_corner = domains(rules).iter().position(|[a, b]| a[1] > 1.0 - 1e-9 && b[0] == 0.0);
     let which = at_corner.expect("a ring reaches to a = 1 on its line");

@@ -15,8 +15,8 @@
 //! **Modes.** All is linear and commutes with turning, so it falls apart into the parts
 //! z^s = Re(w^(f s) Y), w = exp(2 pi i/n), f = 0..n/2. It also commutes with the mirror that
 //! exchanges u and v and sectors s and -s. If Y is its own image, Y = S + i A with S symmetric and
-//! A antisymmetric in (i,j), and one real array z = S + A says it all; and every Y is a sum Y' + i Y'' of two
-//! such. The sector behind a line has b = w^-f conj Y there, so with phi = pi f / n
+//! A antisymmetric in (i,j), and one real array z = S + A says it all; and every Y is a sum Y' + i
+//! Y'' of two such. The sector behind a line has b = w^-f conj Y there, so with phi = pi f / n
 //!
 //! ```text
 //!   Im(e^(i phi) Y) = 0,   Re(e^(i phi) Y_v) = c (1-u)^2 Re(e^(i phi) Y_u)   on v = 0.

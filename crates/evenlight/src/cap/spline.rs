@@ -36,8 +36,8 @@ impl Space {
         self.degree + 1 + (self.pieces - 1) * (self.degree - self.smooth)
     }
 
-    /// The part [[a0, a1], [b0, b1]] of the unit square that piece `which` covers, the index along b
-    /// fastest.
+    /// The part [[a0, a1], [b0, b1]] of the unit square that piece `which` covers, the index along
+    /// b fastest.
     pub(super) fn patch_domain(self, which: usize) -> [[f64; 2]; 2] {
         let m = self.pieces;
         [which / m, which % m].map(|k| [k as f64 / m as f64, (k + 1) as f64 / m as f64])

@@ -11,7 +11,7 @@ use std::path::Path;
 use super::{bv, glb, obj_out, patch_json, ply_out, stl};
 use crate::Surface;
 use crate::mesh::Primvar;
-use crate::tessellate::{CornerChannels, TriangleMesh};
+use crate::tessellate::{CornerPrimvars, TriangleMesh};
 
 /// Files that hold triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -60,11 +60,11 @@ impl MeshFormat {
     }
 
     /// Whether such a file can hold texture coordinates or colours.
-    pub fn has_channels(self) -> bool {
+    pub fn has_primvars(self) -> bool {
         self != Self::Stl
     }
 
-    /// Writes `mesh` with those of its `channels` that the format can hold. Writes many small
+    /// Writes `mesh` with those of its `primvars` that the format can hold. Writes many small
     /// pieces: give it something with a buffer.
     ///
     /// # Errors
@@ -73,31 +73,31 @@ impl MeshFormat {
     pub fn write(
         self,
         mesh: &TriangleMesh,
-        channels: &CornerChannels,
+        primvars: &CornerPrimvars,
         out: &mut impl Write,
     ) -> io::Result<()> {
         match self {
-            Self::Obj => obj_out::write_textured(mesh, channels, out),
-            Self::Ply => ply_out::write_textured(mesh, channels, out),
+            Self::Obj => obj_out::write_textured(mesh, primvars, out),
+            Self::Ply => ply_out::write_textured(mesh, primvars, out),
             Self::Stl => stl::write(mesh, out),
-            Self::Glb => glb::write_textured(mesh, channels, out),
+            Self::Glb => glb::write_textured(mesh, primvars, out),
         }
     }
 
     /// What of the cage of `surface` [`MeshFormat::write`] leaves out of a file with `mesh` and
-    /// `channels`, in sentences.
+    /// `primvars`, in sentences.
     pub fn omitted(
         self,
         surface: &Surface,
         mesh: &TriangleMesh,
-        channels: &CornerChannels,
+        primvars: &CornerPrimvars,
     ) -> Vec<String> {
         let mut sentences = match self {
-            Self::Obj => obj_out::omitted(mesh, channels),
-            Self::Ply => ply_out::omitted(mesh, channels),
+            Self::Obj => obj_out::omitted(mesh, primvars),
+            Self::Ply => ply_out::omitted(mesh, primvars),
             Self::Stl | Self::Glb => Vec::new(),
         };
-        let others = other_channels(surface, channels);
+        let others = other_primvars(surface, primvars);
         if !others.is_empty() {
             sentences.push(format!("{}: {} left out", self.held(), others.join(", ")));
         }
@@ -109,18 +109,18 @@ impl MeshFormat {
         match self {
             Self::Stl => "STL holds nothing but triangles",
             Self::Obj | Self::Ply | Self::Glb => {
-                "of the channels, the file has those of two numbers (texture coordinates) and the \
+                "of the primvars, the file has those of two numbers (texture coordinates) and the \
                  first named `color` or `displayColor` of three or four"
             }
         }
     }
 }
 
-/// The names of the channels of the cage that are not in `channels`.
-fn other_channels(surface: &Surface, channels: &CornerChannels) -> Vec<String> {
+/// The names of the primvars of the cage that are not in `primvars`.
+fn other_primvars(surface: &Surface, primvars: &CornerPrimvars) -> Vec<String> {
     let is_carried = |primvar: &&Primvar| {
-        let mut carried = channels.uv_sets.iter().chain(&channels.color);
-        carried.any(|channel| channel.name == primvar.name)
+        let mut carried = primvars.uv_sets.iter().chain(&primvars.color);
+        carried.any(|values| values.name == primvar.name)
     };
     let others = surface.primvars().iter().filter(|primvar| !is_carried(primvar));
     others.map(|primvar| format!("`{}`", primvar.name)).collect()

@@ -16,7 +16,7 @@
 //! | `COLOR_0` | 3 or 4 floats | cut to 0..1, as the format demands; it takes them as linear light |
 //!
 //! A vertex of the format has one value of each attribute. Vertices are therefore split along
-//! infinitely sharp edges and the seams of channels ([`TriangleMesh::split`]), and welding them by
+//! infinitely sharp edges and the seams of primvars ([`TriangleMesh::split`]), and welding them by
 //! position gives the watertight mesh: positions are rounded alike in all triangles of a vertex.
 //!
 //! The format knows no values that do not exist: in their place stand the normal (0, 0, 1) and 0.
@@ -26,7 +26,7 @@
 use std::io::{self, Write};
 
 use crate::point::Vector;
-use crate::tessellate::{CornerChannels, CornerValues, SplitVertices, TriangleMesh};
+use crate::tessellate::{CornerPrimvars, CornerValues, SplitVertices, TriangleMesh};
 
 /// Writes `mesh` as a binary glTF file, without texture coordinates and colours. Writes many small
 /// pieces: give it something with a buffer.
@@ -37,24 +37,24 @@ use crate::tessellate::{CornerChannels, CornerValues, SplitVertices, TriangleMes
 /// triangles, for one that takes 2^32 bytes or more, and for a position that does not fit into 32
 /// bits.
 pub fn write(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
-    write_textured(mesh, &CornerChannels::default(), out)
+    write_textured(mesh, &CornerPrimvars::default(), out)
 }
 
-/// Writes `mesh` as [`write()`] does, with its channels ([`TriangleMesh::corner_channels`]).
+/// Writes `mesh` as [`write()`] does, with its primvars ([`TriangleMesh::corner_primvars`]).
 ///
 /// # Errors
 ///
-/// Those of [`write()`]; and `InvalidInput` for channels that are not of this mesh.
+/// Those of [`write()`]; and `InvalidInput` for primvars that are not of this mesh.
 pub fn write_textured(
     mesh: &TriangleMesh,
-    channels: &CornerChannels,
+    primvars: &CornerPrimvars,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let all: Vec<&CornerValues> = channels.uv_sets.iter().chain(&channels.color).collect();
-    check_channels(mesh, &all)?;
+    let all: Vec<&CornerValues> = primvars.uv_sets.iter().chain(&primvars.color).collect();
+    check_primvars(mesh, &all)?;
     let bounds = bounds(mesh)?;
     let vertices = Vertices::of(mesh, &all);
-    let sections = sections(channels, &vertices);
+    let sections = sections(primvars, &vertices);
     let bin_len = sections.iter().map(Section::len).sum::<usize>();
     let json = json(&sections, bounds);
     let total = 12 + 8 + json.len() + 8 + bin_len;
@@ -72,20 +72,20 @@ pub fn write_textured(
     out.write_all(&bin_len.to_le_bytes())?;
     out.write_all(b"BIN\0")?;
     write_shape(mesh, &vertices, out)?;
-    write_channels(channels, &vertices, out)?;
+    write_primvars(primvars, &vertices, out)?;
     vertices.triangles().iter().flatten().try_for_each(|v| out.write_all(&v.to_le_bytes()))
 }
 
 /// The vertices of the file.
 enum Vertices<'a> {
-    /// The sides of a mesh without channels: nothing needs to be copied.
+    /// The sides of a mesh without primvars: nothing needs to be copied.
     Sides(&'a TriangleMesh),
     Split(SplitVertices),
 }
 
 impl<'a> Vertices<'a> {
-    fn of(mesh: &'a TriangleMesh, channels: &[&CornerValues]) -> Self {
-        if channels.is_empty() { Self::Sides(mesh) } else { Self::Split(mesh.split_by(channels)) }
+    fn of(mesh: &'a TriangleMesh, primvars: &[&CornerValues]) -> Self {
+        if primvars.is_empty() { Self::Sides(mesh) } else { Self::Split(mesh.split_by(primvars)) }
     }
 
     fn len(&self) -> usize {
@@ -110,7 +110,7 @@ impl<'a> Vertices<'a> {
         })
     }
 
-    /// For each channel the number of the value of each vertex.
+    /// For each primvar the number of the value of each vertex.
     fn values(&self) -> &[Vec<u32>] {
         match self {
             Self::Sides(_) => &[],
@@ -137,11 +137,11 @@ impl Section {
 }
 
 /// What is behind each other in the binary part.
-fn sections(channels: &CornerChannels, vertices: &Vertices) -> Vec<Section> {
+fn sections(primvars: &CornerPrimvars, vertices: &Vertices) -> Vec<Section> {
     let shape = [("POSITION", 3), ("NORMAL", 3), ("_GAUSS_CURVATURE", 1), ("_MEAN_CURVATURE", 1)];
     let shape = shape.into_iter().map(|(name, width)| (name.to_owned(), width));
-    let uvs = (0..channels.uv_sets.len()).map(|k| (format!("TEXCOORD_{k}"), 2));
-    let color = channels.color.iter().map(|color| ("COLOR_0".to_owned(), color_width(color)));
+    let uvs = (0..primvars.uv_sets.len()).map(|k| (format!("TEXCOORD_{k}"), 2));
+    let color = primvars.color.iter().map(|color| ("COLOR_0".to_owned(), color_width(color)));
     let attributes = shape.chain(uvs).chain(color);
     let section = |(name, width)| Section { name, width, count: vertices.len() };
     let corners = Section { name: String::new(), width: 1, count: 3 * vertices.triangles().len() };
@@ -193,15 +193,15 @@ fn json(sections: &[Section], [low, high]: [[f32; 3]; 2]) -> String {
 }
 
 /// Whether every corner of every triangle has a value.
-fn check_channels(mesh: &TriangleMesh, channels: &[&CornerValues]) -> io::Result<()> {
-    let fits = |channel: &&CornerValues| {
-        let corners = channel.corners.as_flattened();
-        channel.corners.len() == mesh.triangles.len()
-            && corners.iter().all(|&value| (value as usize) < channel.values.len())
+fn check_primvars(mesh: &TriangleMesh, primvars: &[&CornerValues]) -> io::Result<()> {
+    let fits = |primvar: &&CornerValues| {
+        let corners = primvar.corners.as_flattened();
+        primvar.corners.len() == mesh.triangles.len()
+            && corners.iter().all(|&value| (value as usize) < primvar.values.len())
     };
-    match channels.iter().find(|channel| !fits(channel)) {
-        Some(channel) => {
-            Err(invalid(&format!("the channel `{}` is not of this mesh", channel.name)))
+    match primvars.iter().find(|primvar| !fits(primvar)) {
+        Some(primvar) => {
+            Err(invalid(&format!("the primvar `{}` is not of this mesh", primvar.name)))
         }
         None => Ok(()),
     }
@@ -244,22 +244,22 @@ fn write_shape(mesh: &TriangleMesh, vertices: &Vertices, out: &mut impl Write) -
     Ok(())
 }
 
-/// Writes texture coordinates and the colour: the channels in the order in which the mesh was
+/// Writes texture coordinates and the colour: the primvars in the order in which the mesh was
 /// split.
-fn write_channels(
-    channels: &CornerChannels,
+fn write_primvars(
+    primvars: &CornerPrimvars,
     vertices: &Vertices,
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut float = |x: f64| out.write_all(&(existing(x) as f32).to_le_bytes());
     let mut numbers = vertices.values().iter();
-    for (uvs, numbers) in channels.uv_sets.iter().zip(&mut numbers) {
+    for (uvs, numbers) in primvars.uv_sets.iter().zip(&mut numbers) {
         for &number in numbers {
             let [u, v, ..] = uvs.values[number as usize];
             [u, 1.0 - v].into_iter().try_for_each(&mut float)?;
         }
     }
-    for (color, numbers) in channels.color.iter().zip(&mut numbers) {
+    for (color, numbers) in primvars.color.iter().zip(&mut numbers) {
         for &number in numbers {
             let light = color.values[number as usize].map(|x| x.clamp(0.0, 1.0));
             light.into_iter().take(color_width(color)).try_for_each(&mut float)?;

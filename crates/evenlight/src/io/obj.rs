@@ -37,7 +37,7 @@
 //! ```
 //!
 //! Hierarchical edits (`vertexedit`, `edgeedit`, `faceedit`) are refused. Texture coordinates
-//! become the face-varying channel `st`, colours the vertex channel `color`.
+//! become the face-varying primvar `st`, colours the vertex primvar `color`.
 //!
 //! Coordinates are read as `str::parse::<f64>` reads them, to the nearest number of 64 bits.
 //! [`write()`] writes the shortest digits that are read as the same number.
@@ -47,22 +47,22 @@ use std::io::Write;
 
 use crate::mesh::{FaceId, Mesh, Names, Tagged, Tags, VertexId};
 
-mod channels;
 mod fault;
 mod parse;
+mod primvars;
 mod skipped;
 mod tag;
 mod words;
 mod write;
 
-pub use fault::{Channel, Element, LineFault, ReadError, Reason};
+pub use fault::{Element, IndexKind, LineFault, ObjError, Reason};
 pub use skipped::Skipped;
 
 /// What an OBJ file says.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Obj {
-    /// Its vertices and faces in order, its tags and channels.
+    /// Its vertices and faces in order, its tags and primvars.
     pub mesh: Mesh,
     /// Where they stand.
     pub source: Source,
@@ -93,9 +93,9 @@ pub struct Obj {
 ///
 /// let error = obj::read(b"v 0 0 zero\n").unwrap_err();
 /// assert!(error.to_string().starts_with("line 1, vertex 1: `zero` is not a number"));
-/// # Ok::<(), obj::ReadError>(())
+/// # Ok::<(), obj::ObjError>(())
 /// ```
-pub fn read(bytes: &[u8]) -> Result<Obj, ReadError> {
+pub fn read(bytes: &[u8]) -> Result<Obj, ObjError> {
     parse::read(bytes, parse::Limits::default())
 }
 
@@ -188,12 +188,12 @@ impl fmt::Display for UnknownTag {
     }
 }
 
-/// Writes `mesh` as OBJ: vertices in order with the channel `color`, texture coordinates, faces
+/// Writes `mesh` as OBJ: vertices in order with the primvar `color`, texture coordinates, faces
 /// in order, tags that differ from the default; [`omitted`] tells what this leaves out.
 ///
 /// The same mesh always gives the same bytes. Numbers have the shortest digits that are read as
 /// the same 64 bits, so that [`read`] returns the mesh, except that NaN is not equal to itself,
-/// that a face at a vertex that does not exist is refused there, and that channels get the
+/// that a face at a vertex that does not exist is refused there, and that primvars get the
 /// names `st` and `color` and `st` becomes face-varying.
 ///
 /// # Errors
@@ -215,7 +215,7 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> std::io::Result<()> {
     write::write(mesh, out)
 }
 
-/// What [`write()`] leaves out of `mesh`, in sentences: channels other than one of texture
+/// What [`write()`] leaves out of `mesh`, in sentences: primvars other than one of texture
 /// coordinates (`st`, `uv`, or else the first face-varying one of two numbers) and one of
 /// colours (`color`, `displayColor`).
 pub fn omitted(mesh: &Mesh) -> Vec<String> {

@@ -17,25 +17,25 @@
 use std::io::{self, Write};
 
 use super::digits::{Digits, Triple};
-use crate::tessellate::{CornerChannels, CornerValues, TriangleMesh};
+use crate::tessellate::{CornerPrimvars, CornerValues, TriangleMesh};
 
 /// Writes `mesh` as OBJ: positions in the units of the cage, unit normals.
 ///
 /// Numbers have the fewest digits from which the same `f64` is read again. A normal that does
 /// not exist is written as `0 0 0`. Writes many small pieces: give it something with a buffer.
 pub fn write(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
-    write_textured(mesh, &CornerChannels::default(), out)
+    write_textured(mesh, &CornerPrimvars::default(), out)
 }
 
-/// Writes `mesh` as [`write()`] does, with its channels ([`TriangleMesh::corner_channels`]) as far
+/// Writes `mesh` as [`write()`] does, with its primvars ([`TriangleMesh::corner_primvars`]) as far
 /// as OBJ can hold them ([`omitted`]).
 pub fn write_textured(
     mesh: &TriangleMesh,
-    channels: &CornerChannels,
+    primvars: &CornerPrimvars,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    write_positions(mesh, channels.color.as_ref(), out)?;
-    let texture = channels.uv_sets.first();
+    write_positions(mesh, primvars.color.as_ref(), out)?;
+    let texture = primvars.uv_sets.first();
     for &[u, v, ..] in texture.map_or(&[][..], |texture| &texture.values) {
         writeln!(out, "vt {} {}", Digits(u), Digits(v))?;
     }
@@ -55,17 +55,17 @@ pub fn write_textured(
 }
 
 /// What [`write_textured`] leaves out, in sentences.
-pub fn omitted(mesh: &TriangleMesh, channels: &CornerChannels) -> Vec<String> {
-    let sets = channels.uv_sets.iter().skip(1).map(|set| {
-        format!("OBJ has one set of texture coordinates: the channel `{}` is left out", set.name)
+pub fn omitted(mesh: &TriangleMesh, primvars: &CornerPrimvars) -> Vec<String> {
+    let sets = primvars.uv_sets.iter().skip(1).map(|set| {
+        format!("OBJ has one set of texture coordinates: the primvar `{}` is left out", set.name)
     });
-    let color = channels.color.iter().filter(|color| color.of_vertices(mesh).is_none());
+    let color = primvars.color.iter().filter(|color| color.of_vertices(mesh).is_none());
     let seams = color.map(|color| {
-        format!("OBJ has one colour for a vertex: the channel `{}` is left out", color.name)
+        format!("OBJ has one colour for a vertex: the primvar `{}` is left out", color.name)
     });
-    let color = channels.color.iter().filter(|color| color.width == 4);
+    let color = primvars.color.iter().filter(|color| color.width == 4);
     let opacity = color.map(|color| {
-        format!("OBJ has no opacity: that of the channel `{}` is left out", color.name)
+        format!("OBJ has no opacity: that of the primvar `{}` is left out", color.name)
     });
     sets.chain(seams).chain(opacity).collect()
 }

@@ -6,7 +6,7 @@
 //! comment, obj_info ...               ignored
 //! element vertex 8
 //! property float x                    x, y, z of any type, in any order among others
-//! property uchar red                  other numbers are kept as vertex channels, see below
+//! property uchar red                  other numbers are kept as vertex primvars, see below
 //! element face 6
 //! property list uchar int vertex_indices    or vertex_index; any whole-number types
 //! property list uchar float texcoord        two numbers for each corner: face-varying `st`
@@ -19,7 +19,7 @@
 //! the ascii form values may be spread over lines in any way. What follows the last element is
 //! reported.
 //!
-//! | properties | channel | |
+//! | properties | primvar | |
 //! | --- | --- | --- |
 //! | `red green blue [alpha]` | `color` | whole numbers are taken as fractions of their type's largest |
 //! | `s t`, `u v`, `texture_u texture_v` | `st` | |
@@ -37,8 +37,8 @@ use crate::mesh::Mesh;
 
 mod body;
 mod cage;
-mod channels;
 mod header;
+mod primvars;
 mod write;
 
 pub use header::Encoding;
@@ -47,7 +47,7 @@ pub use header::Encoding;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Ply {
-    /// Its vertices and faces in order, and its channels.
+    /// Its vertices and faces in order, and its primvars.
     pub mesh: Mesh,
     /// Where its vertices and faces stand, in text.
     pub lines: Lines,
@@ -57,16 +57,16 @@ pub struct Ply {
 
 /// Why a file cannot be read: its first fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError {
+pub struct PlyError {
     /// Where it is.
-    pub place: Place,
+    pub place: PlyPlace,
     /// The element and the number of the item in it, from 0, if it is not in the header.
     pub item: Option<(String, usize)>,
     /// What is wrong and what to do, in a sentence.
     pub message: String,
 }
 
-impl fmt::Display for ReadError {
+impl fmt::Display for PlyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.item {
             Some((element, k)) => write!(f, "{}, {element} {k}: {}", self.place, self.message),
@@ -75,18 +75,18 @@ impl fmt::Display for ReadError {
     }
 }
 
-impl std::error::Error for ReadError {}
+impl std::error::Error for PlyError {}
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum PlyPlace {
     /// A line, from 1: of the header, or of an ascii file.
     Line(usize),
     /// The number of bytes before it, in a binary file.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for PlyPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "line {line}"),
@@ -116,13 +116,13 @@ impl fmt::Display for Place {
 /// let error = ply::read(text.replace("3 0 1 2", "3 0 1 3").as_bytes()).unwrap_err();
 /// let expected = "line 13, face 0: a corner asks for vertex 3, but the file has 3";
 /// assert!(error.to_string().starts_with(expected));
-/// # Ok::<(), ply::ReadError>(())
+/// # Ok::<(), ply::PlyError>(())
 /// ```
-pub fn read(bytes: &[u8]) -> Result<Ply, ReadError> {
+pub fn read(bytes: &[u8]) -> Result<Ply, PlyError> {
     cage::read(bytes)
 }
 
-/// Writes `mesh` as PLY: positions and channels with 64 bits, colours of 8 bits as such, faces
+/// Writes `mesh` as PLY: positions and primvars with 64 bits, colours of 8 bits as such, faces
 /// with 32-bit indices and, if there is a face-varying `st`, `texcoord`. [`omitted`] tells what
 /// this leaves out.
 ///
@@ -136,8 +136,8 @@ pub fn write(mesh: &Mesh, encoding: Encoding, out: &mut impl Write) -> std::io::
     write::write(mesh, encoding, out)
 }
 
-/// What [`write()`] leaves out of `mesh`, in sentences: tags, varying channels, face-varying ones
-/// but one of two numbers, channels whose names are taken.
+/// What [`write()`] leaves out of `mesh`, in sentences: tags, varying primvars, face-varying ones
+/// but one of two numbers, primvars whose names are taken.
 pub fn omitted(mesh: &Mesh) -> Vec<String> {
     write::omitted(mesh)
 }

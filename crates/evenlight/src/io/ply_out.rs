@@ -23,7 +23,7 @@
 
 use std::io::{self, Write};
 
-use crate::tessellate::{CornerChannels, CornerValues, TriangleMesh};
+use crate::tessellate::{CornerPrimvars, CornerValues, TriangleMesh};
 
 /// Writes `mesh` as binary PLY, without texture coordinates and colours. Writes many small pieces:
 /// give it something with a buffer.
@@ -33,10 +33,10 @@ use crate::tessellate::{CornerChannels, CornerValues, TriangleMesh};
 /// What `out` reports; and `InvalidInput`, before anything is written, for more than 2^31
 /// vertices, since the indices of this format are signed.
 pub fn write(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
-    write_textured(mesh, &CornerChannels::default(), out)
+    write_textured(mesh, &CornerPrimvars::default(), out)
 }
 
-/// Writes `mesh` as [`write()`] does, with its channels ([`TriangleMesh::corner_channels`]) as far
+/// Writes `mesh` as [`write()`] does, with its primvars ([`TriangleMesh::corner_primvars`]) as far
 /// as PLY can hold them ([`omitted`]).
 ///
 /// # Errors
@@ -44,12 +44,12 @@ pub fn write(mesh: &TriangleMesh, out: &mut impl Write) -> io::Result<()> {
 /// Those of [`write()`].
 pub fn write_textured(
     mesh: &TriangleMesh,
-    channels: &CornerChannels,
+    primvars: &CornerPrimvars,
     out: &mut impl Write,
 ) -> io::Result<()> {
     check_size(mesh.positions.len())?;
-    let texture = channels.uv_sets.first();
-    let colors = channels.color.as_ref().and_then(|color| bytes(mesh, color));
+    let texture = primvars.uv_sets.first();
+    let colors = primvars.color.as_ref().and_then(|color| bytes(mesh, color));
     write_header(mesh, texture.is_some(), colors.as_ref().map_or(0, |c| c.width), out)?;
     for (v, p) in mesh.positions.iter().enumerate() {
         p.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
@@ -74,17 +74,17 @@ pub fn write_textured(
 }
 
 /// What [`write_textured`] leaves out, in sentences.
-pub fn omitted(mesh: &TriangleMesh, channels: &CornerChannels) -> Vec<String> {
+pub fn omitted(mesh: &TriangleMesh, primvars: &CornerPrimvars) -> Vec<String> {
     let folded = mesh.is_folded().then(|| {
         "PLY has one normal for a vertex: on sharp edges it is that of one side (.glb and .obj have all)"
             .to_owned()
     });
-    let sets = channels.uv_sets.iter().skip(1).map(|set| {
-        format!("PLY has one set of texture coordinates: the channel `{}` is left out", set.name)
+    let sets = primvars.uv_sets.iter().skip(1).map(|set| {
+        format!("PLY has one set of texture coordinates: the primvar `{}` is left out", set.name)
     });
-    let color = channels.color.iter().filter(|color| color.of_vertices(mesh).is_none());
+    let color = primvars.color.iter().filter(|color| color.of_vertices(mesh).is_none());
     let seams = color.map(|color| {
-        format!("PLY has one colour for a vertex: the channel `{}` is left out", color.name)
+        format!("PLY has one colour for a vertex: the primvar `{}` is left out", color.name)
     });
     folded.into_iter().chain(sets).chain(seams).collect()
 }

@@ -25,7 +25,7 @@
 //! A scheme other than `catmullClark`, smooth triangles, primvars that are constant, uniform or no
 //! numbers, and composition (references, payloads, variants ...) are reported, not followed. Of
 //! values over time the first counts if there is no other. Primvars of corners without indices
-//! are joined where a vertex has the same value. `displayColor` is the channel `color`, and
+//! are joined where a vertex has the same value. `displayColor` is the primvar `color`, and
 //! `evenlight:creaseMethod` (`uniform` or `chaikin`) is our own.
 //!
 //! Numbers are read with 64 bits, though the types of USD say 32. Vertices and faces are counted
@@ -61,20 +61,20 @@ pub struct Usd {
 
 /// Why a file cannot be read: its first fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError {
+pub struct UsdError {
     /// The line of the fault, from 1.
     pub line: usize,
     /// What is wrong and what to do, in a sentence.
     pub message: String,
 }
 
-impl fmt::Display for ReadError {
+impl fmt::Display for UsdError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "line {}: {}", self.line, self.message)
     }
 }
 
-impl std::error::Error for ReadError {}
+impl std::error::Error for UsdError {}
 
 /// Reads the mesh at the path `prim` (or the only one below it) of a USD file, or the only mesh of
 /// the file. Time and memory are linear in its length.
@@ -96,9 +96,9 @@ impl std::error::Error for ReadError {}
 ///
 /// let error = usd::read(text.replace("1, 2]", "1, 3]").as_bytes(), None).unwrap_err();
 /// assert!(error.to_string().starts_with("line 5: `faceVertexIndices` asks for vertex 3"));
-/// # Ok::<(), usd::ReadError>(())
+/// # Ok::<(), usd::UsdError>(())
 /// ```
-pub fn read(bytes: &[u8], prim: Option<&str>) -> Result<Usd, ReadError> {
+pub fn read(bytes: &[u8], prim: Option<&str>) -> Result<Usd, UsdError> {
     let layer = parse::read(bytes)?;
     let found = scene::find_mesh(&layer, prim)?;
     cage::read(&found)
@@ -116,7 +116,7 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> std::io::Result<()> {
     write::write(mesh, out)
 }
 
-/// What [`write()`] leaves out of `mesh`, in sentences: channels whose names or sizes are not fit
+/// What [`write()`] leaves out of `mesh`, in sentences: primvars whose names or sizes are not fit
 /// for primvars.
 pub fn omitted(mesh: &Mesh) -> Vec<String> {
     write::omitted(mesh)

@@ -19,7 +19,7 @@
 //! ```
 //!
 //! They are made in this order. Nothing else is changed: positions stay where they are, tags and
-//! channels go with their vertices, faces and corners. A one-sided surface stays as it is, and so
+//! primvars go with their vertices, faces and corners. A one-sided surface stays as it is, and so
 //! does every fault that is not named here.
 
 use super::fault::list;

@@ -5,7 +5,6 @@
 //! ([`Topology`]) can be walked without a case that fails. Everything behind the cage is
 //! total: it cannot meet bad input any more.
 
-pub(crate) mod channel;
 mod check;
 mod fan;
 mod fault;
@@ -13,6 +12,7 @@ pub mod fix;
 pub mod isolation;
 mod marks;
 mod nets;
+pub(crate) mod primvar_net;
 pub(crate) mod refine;
 pub(crate) mod sharpness;
 mod tags;

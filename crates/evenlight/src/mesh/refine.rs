@@ -142,8 +142,8 @@ impl Level {
         self.origins.iter().map(|&origin| masks.of(origin)).collect()
     }
 
-    /// The weights of coarse vertices in a refined vertex. What would need the faces beyond the end of
-    /// a refined part has weights that are NaN.
+    /// The weights of coarse vertices in a refined vertex. What would need the faces beyond the end
+    /// of a refined part has weights that are NaN.
     pub(crate) fn mask(&self, coarse: &Topology, sharpness: &Sharpness, v: VertexId) -> Mask {
         let unit = |v: VertexId| Mask { terms: vec![(v, 1.0)] };
         Masks { coarse, sharpness, at: unit }.of(self.origin(v))

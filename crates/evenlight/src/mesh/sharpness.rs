@@ -30,15 +30,15 @@ pub(crate) struct Sharpness {
     edges: Vec<f64>,
     /// Of every vertex; empty with `edges`.
     vertices: Vec<f64>,
-    /// Of vertices of a face-varying channel at its seams.
+    /// Of vertices of a face-varying primvar at its seams.
     beyond: BTreeMap<VertexId, Beyond>,
 }
 
-/// Semi-sharp edges of the cage at a vertex of a face-varying channel that are not the channel's
+/// Semi-sharp edges of the cage at a vertex of a face-varying primvar that are not the primvar's
 /// there: those between faces beyond a seam, and the seams themselves.
 ///
 /// ```text
-///         :          v, below the seam ======, has one edge of the channel, w;
+///         :          v, below the seam ======, has one edge of the primvar, w;
 ///       a :          it is held by a, if it depends on the fan above;
 ///   ======v===b==    b is apart: it only counts in Chaikin's averages
 ///         |
@@ -114,7 +114,7 @@ impl Sharpness {
         Self { method: tags.crease_method, edges, vertices, beyond: BTreeMap::new() }
     }
 
-    /// With the edges beyond the seams of a channel.
+    /// With the edges beyond the seams of a primvar.
     pub(crate) fn with_beyond(self, beyond: BTreeMap<VertexId, Beyond>) -> Self {
         Self { beyond, ..self }
     }
@@ -193,7 +193,7 @@ impl Sharpness {
         self.children(spokes.iter().map(|spoke| spoke.sharpness), spokes, v)
     }
 
-    /// What edges at `v` become, of which `spokes` are the channel's.
+    /// What edges at `v` become, of which `spokes` are the primvar's.
     fn children(&self, of: impl Iterator<Item = f64>, spokes: &[Spoke], v: VertexId) -> Vec<f64> {
         if self.method == CreaseMethod::Uniform {
             return of.map(lowered).collect();

@@ -36,10 +36,10 @@ pub enum CreaseMethod {
 
 names! { CreaseMethod, "crease method": Uniform => "uniform", Chaikin => "chaikin" }
 
-/// Which parts of a face-varying channel are interpolated linearly instead of smoothly.
+/// Which parts of a face-varying primvar are interpolated linearly instead of smoothly.
 ///
-/// At a vertex the corners with one value are one vertex of the channel; seams are where values
-/// differ, and they and the cage's boundary are boundaries of the channel.
+/// At a vertex the corners with one value are one vertex of the primvar; seams are where values
+/// differ, and they and the cage's boundary are boundaries of the primvar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FaceVaryingRule {
     /// None: seams are smooth curves, also where a single face has a value.
@@ -97,7 +97,7 @@ pub struct Tags {
     pub boundary: BoundaryRule,
     /// The rule for semi-sharp creases.
     pub crease_method: CreaseMethod,
-    /// The rule for face-varying channels.
+    /// The rule for face-varying primvars.
     pub face_varying: FaceVaryingRule,
     /// Sharp edges; of an edge that is named twice the last counts.
     pub creases: Vec<Crease>,
@@ -129,7 +129,7 @@ pub struct Primvar {
     pub width: usize,
     /// The values, `width` numbers each.
     pub values: Vec<f64>,
-    /// Of a face-varying channel, the value of every corner in the order of
+    /// Of a face-varying primvar, the value of every corner in the order of
     /// [`Faces::all_corners`](super::Faces::all_corners); corners of a vertex with one number are
     /// joined, those with several are apart. Empty for the others, whose values are in the order
     /// of the vertices.

@@ -122,10 +122,10 @@ impl Topology {
     ///
     /// # Errors
     ///
-    /// All faces that have fewer than three corners, or corners that are not different and in range;
-    /// if there are none, all places where the faces are not an orientable surface: an edge with
-    /// three faces or more, two neighbours of opposite orientation, a vertex whose faces form more
-    /// than one fan.
+    /// All faces that have fewer than three corners, or corners that are not different and in
+    /// range; if there are none, all places where the faces are not an orientable surface: an edge
+    /// with three faces or more, two neighbours of opposite orientation, a vertex whose faces form
+    /// more than one fan.
     pub fn build(faces: Faces, num_vertices: usize) -> Result<Self, Vec<MeshError>> {
         let counts = [("vertices", num_vertices), ("corners", faces.all_corners().len())];
         let too_many = counts.into_iter().find(|&(_, count)| count > MAX_COUNT);
@@ -278,8 +278,8 @@ impl Topology {
         has_corner.then(|| HalfEdge { topology: self, id: self.half_edge(face, corner) })
     }
 
-    /// The half-edge that leaves corner `corner` of `face`, of ids of this topology, like all methods
-    /// of the crate that answer without an `Option`.
+    /// The half-edge that leaves corner `corner` of `face`, of ids of this topology, like all
+    /// methods of the crate that answer without an `Option`.
     pub(crate) fn half_edge(&self, face: FaceId, corner: usize) -> HalfEdgeId {
         HalfEdgeId((self.faces.corner_range(face).start + corner) as u32)
     }

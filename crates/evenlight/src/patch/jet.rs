@@ -168,8 +168,8 @@ impl Shape {
     }
 }
 
-/// Sines of angles between derivatives that are rounding: the angle is 0 or pi, as where two edges of
-/// a corner are in one line.
+/// Sines of angles between derivatives that are rounding: the angle is 0 or pi, as where two edges
+/// of a corner are in one line.
 const PARALLEL: f64 = 1e-12;
 
 /// r_u x r_v at length one, and one divided by its length; NaN if they are parallel or zero.

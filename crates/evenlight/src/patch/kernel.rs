@@ -7,9 +7,10 @@
 //!   p   = sum_j B_j(v) r_j
 //! ```
 //!
-//! Sizes, K = d + 1 coefficients a side of N numbers each, are constants, so that loops are unrolled and become vector instructions; the order of
-//! summation is fixed, so that results are the same bits everywhere. What is not asked for
-//! (derivatives beyond `order`) is left out, and zero in the result.
+//! Sizes, K = d + 1 coefficients a side of N numbers each, are constants, so that loops are
+//! unrolled and become vector instructions; the order of summation is fixed, so that results are
+//! the same bits everywhere. What is not asked for (derivatives beyond `order`) is left out, and
+//! zero in the result.
 
 use super::Jet;
 use super::basis::{BasisJet, bernstein_basis};

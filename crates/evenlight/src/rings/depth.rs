@@ -9,7 +9,8 @@ pub(crate) fn in_ring([a, b]: [f64; 2], sigma: f64) -> (usize, [f64; 2]) {
         let ring = ring_of(largest, sigma);
         return (ring, [a, b].map(|x| scaled_up(x, ring, sigma)));
     }
-    // largest = mantissa 2^-k, 1 <= mantissa < 2: ring k if it is a power of 2, else the one before.
+    // largest = mantissa 2^-k, 1 <= mantissa < 2: ring k if it is a power of 2, else the one
+    // before.
     let bits = largest.to_bits();
     let is_power = bits & ((1 << MANTISSA) - 1) == 0;
     let ring = EXPONENT_OF_ONE - (bits >> MANTISSA) - u64::from(!is_power);

@@ -18,8 +18,8 @@ use crate::patch::Answer;
 use crate::patch::kernel::{Line, patch_grid};
 
 impl<const N: usize> Rings<N> {
-    /// [`Rings::eval_as`] where lines of constant a meet lines of constant b, all from 0 to 1: `put`
-    /// gets the numbers of both and the answer, the same bits as one at a time.
+    /// [`Rings::eval_as`] where lines of constant a meet lines of constant b, all from 0 to 1:
+    /// `put` gets the numbers of both and the answer, the same bits as one at a time.
     pub(crate) fn eval_grid<A: Answer<N>>(
         &self,
         s: usize,

@@ -35,8 +35,8 @@ enum Part {
         /// omega^(-s) y / n for every node.
         left: Vec<[f64; 2]>,
     },
-    /// The scheme has a quadratic or a guide: its linear terms are the tangents, and the other nodes
-    /// have no part of their own that shrinks by lambda.
+    /// The scheme has a quadratic or a guide: its linear terms are the tangents, and the other
+    /// nodes have no part of their own that shrinks by lambda.
     Linear {
         /// The number of all nodes, and of those before the linear terms, of a sector.
         nodes: [usize; 2],
@@ -66,8 +66,8 @@ impl Subdominant {
         Self { lambda, part: Part::Fourier { right: none.clone(), left: none } }
     }
 
-    /// Of rules that do not commute with turning: the nets x and y of the characteristic map, and the
-    /// rows that find their coefficients.
+    /// Of rules that do not commute with turning: the nets x and y of the characteristic map, and
+    /// the rows that find their coefficients.
     pub(crate) fn with_plane(lambda: f64, right: [Vec<f64>; 2], left: [Vec<f64>; 2]) -> Self {
         // 2 (a x - b y) with a = left x / 2, b = -left y / 2.
         let pairs = |[x, y]: [Vec<f64>; 2], w: [f64; 2]| {

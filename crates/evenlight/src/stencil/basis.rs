@@ -6,8 +6,8 @@ use crate::patch::basis::BasisJet;
 /// The orders in u and v of the rows of a place: p, du, dv, duu, duv, dvv.
 const ORDERS: [[usize; 2]; 6] = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
 
-/// The weights, in the rows of a place, of the coefficients `i` and `j` of a tensor product; row k is
-/// multiplied by `factors[k]`.
+/// The weights, in the rows of a place, of the coefficients `i` and `j` of a tensor product; row k
+/// is multiplied by `factors[k]`.
 #[inline]
 pub(super) fn product<const R: usize, const N: usize>(
     factors: &[f64; R],
@@ -20,8 +20,8 @@ pub(super) fn product<const R: usize, const N: usize>(
     })
 }
 
-/// The factors of rows by those of the value, of first and of second derivatives, which also are to be
-/// divided by the sizes of a patch in u and v.
+/// The factors of rows by those of the value, of first and of second derivatives, which also are to
+/// be divided by the sizes of a patch in u and v.
 #[inline]
 pub(super) fn factors<const R: usize>(by_order: [f64; 3], sizes: [f64; 2]) -> [f64; R] {
     std::array::from_fn(|k| {

@@ -1,7 +1,7 @@
 //! Columns: what the weights of stencils are weights of, and the sums of rows over them.
 //!
-//! A net around a point or a patch is made of vertices of some refined level, and a vertex of a level
-//! is a row of weights of the cage:
+//! A net around a point or a patch is made of vertices of some refined level, and a vertex of a
+//! level is a row of weights of the cage:
 //!
 //! ```text
 //!   sample = sum of weights * vertices of level 2           gathered, column by column:

@@ -1,8 +1,8 @@
 //! Stencils: the surface as weights of the values of its cage.
 //!
-//! Everything on a surface is linear in the positions of its vertices. A *stencil* is the weights of
-//! one result: made once, it gives that result for any positions, and for any other values that are
-//! interpolated like positions, by a short sum.
+//! Everything on a surface is linear in the positions of its vertices. A *stencil* is the weights
+//! of one result: made once, it gives that result for any positions, and for any other values that
+//! are interpolated like positions, by a short sum.
 //!
 //! ```text
 //!        columns: the vertices of the cage, or the values of a primvar
@@ -19,7 +19,8 @@
 //! use evenlight::stencil::StencilBuilder;
 //! use evenlight::{FaceId, Surface, SurfaceOptions};
 //!
-//! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
+//! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n\
+//!             v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
 //!             f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 //! let (cage, _) = Format::Obj.read_cage(text.as_bytes())?;
 //! let surface = Surface::build(cage, SurfaceOptions::default())?;
@@ -33,21 +34,21 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! **Exactness.** The rows of positions sum to 1, those of derivatives to 0, and results are those of
-//! [`Surface`] to rounding, with every scheme, at boundaries, creases, caps and seams. Derivatives of
-//! order k are exact relative to (lambda / sigma^k)^l times the extent of the net, in ring l around a
-//! point whose rings shrink by lambda and their parameters by sigma. That is their own size at any depth,
-//! but for what cancels: the height above the limit tangent plane is lambda^l times as small as the
-//! tangential part of a derivative, and in one sum of weights it cannot keep digits of its own. So
-//! curvature that is computed of results has a relative error of about 1e-16 lambda^-l, and is lost
-//! after some fifty rings; [`Surface::eval`] has it exact.
+//! **Exactness.** The rows of positions sum to 1, those of derivatives to 0, and results are those
+//! of [`Surface`] to rounding, with every scheme, at boundaries, creases, caps and seams.
+//! Derivatives of order k are exact relative to (lambda / sigma^k)^l times the extent of the net,
+//! in ring l around a point whose rings shrink by lambda and their parameters by sigma. That is
+//! their own size at any depth, but for what cancels: the height above the limit tangent plane is
+//! lambda^l times as small as the tangential part of a derivative, and in one sum of weights it
+//! cannot keep digits of its own. So curvature that is computed of results has a relative error of
+//! about 1e-16 lambda^-l, and is lost after some fifty rings; [`Surface::eval`] has it exact.
 //!
 //! **At an extraordinary point itself** without a cap the row of the position is that of the limit
 //! point. Derivatives do not exist there: their rows are NaN, as the answers of [`Surface::eval`].
 //!
-//! **What is meant.** Stencils are those of a [`Layout`]: of the default quadratics. A surface with a
-//! quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that point. Caps are
-//! linear; a surface's stencils have its caps.
+//! **What is meant.** Stencils are those of a [`Layout`]: of the default quadratics. A surface with
+//! a quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that point.
+//! Caps are linear; a surface's stencils have its caps.
 
 mod backwards;
 mod basis;
@@ -67,7 +68,7 @@ pub use patches::PatchStencils;
 pub use refined::RefinedCage;
 
 use crate::cap::CapOptions;
-use crate::mesh::channel::ChannelNet;
+use crate::mesh::primvar_net::PrimvarNet;
 use crate::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use crate::surface::{ArrayError, Layout, PatchPlace, QuadId, Surface, own_layout, row_width};
 use columns::{Columns, Sums, in_parts};
@@ -75,9 +76,9 @@ use linear::LinearNet;
 use refined::Masks;
 use smooth::SmoothNet;
 
-/// Makes stencils of surfaces over a layout, or of a primvar, and keeps what they have in common: the
-/// refined vertices that patches need, and the surfaces of unit nets, for every kind of extraordinary
-/// point once.
+/// Makes stencils of surfaces over a layout, or of a primvar, and keeps what they have in common:
+/// the refined vertices that patches need, and the surfaces of unit nets, for every kind of
+/// extraordinary point once.
 ///
 /// After that a place costs what its evaluation costs for as many numbers as its rows have weights,
 /// about 16 in regular faces.
@@ -97,8 +98,8 @@ enum Net {
 }
 
 impl StencilBuilder {
-    /// For positions over a layout and for primvars with [`Interpolation::Vertex`], closed by such caps
-    /// if there are to be some: the columns are the vertices.
+    /// For positions over a layout and for primvars with [`Interpolation::Vertex`], closed by such
+    /// caps if there are to be some: the columns are the vertices.
     ///
     /// # Errors
     ///
@@ -118,7 +119,8 @@ impl StencilBuilder {
         Self::new(surface.layout(), surface.cap_options())
     }
 
-    /// For a primvar, by its index: the columns are the vertices, or of face-varying ones the values.
+    /// For a primvar, by its index: the columns are the vertices, or of face-varying ones the
+    /// values.
     ///
     /// # Errors
     ///
@@ -157,13 +159,13 @@ impl StencilBuilder {
         self.columns().count()
     }
 
-    /// The rows of places on the limit surface: quad, u and v, which are clamped to 0..1. With derivatives
-    /// up to `order` 0, 1 or 2 each place has 1, 3 or 6 rows: p, du, dv, duu, duv, dvv.
+    /// The rows of places on the limit surface: quad, u and v, which are clamped to 0..1. With
+    /// derivatives up to `order` 0, 1 or 2 each place has 1, 3 or 6 rows: p, du, dv, duu, duv, dvv.
     ///
     /// # Errors
     ///
-    /// [`StencilError`] with the first place that is none: there is no such quad, no surface over it,
-    /// or a parameter is NaN. [`ArrayError::Order`].
+    /// [`StencilError`] with the first place that is none: there is no such quad, no surface over
+    /// it, or a parameter is NaN. [`ArrayError::Order`].
     pub fn places(
         &self,
         places: &[(QuadId, f64, f64)],
@@ -243,8 +245,8 @@ impl StencilBuilder {
     }
 
     /// Where the patches lie that [`StencilBuilder::patches`] knows: of positions as
-    /// [`Surface::patch_places`] has them. A face-varying primvar has patches of its own, and none if it
-    /// is linear.
+    /// [`Surface::patch_places`] has them. A face-varying primvar has patches of its own, and none
+    /// if it is linear.
     ///
     /// # Errors
     ///
@@ -261,7 +263,8 @@ impl StencilBuilder {
     ///
     /// # Errors
     ///
-    /// [`StencilError::Patch`] if there is no such patch, [`StencilError::Linear`] for linear primvars.
+    /// [`StencilError::Patch`] if there is no such patch, [`StencilError::Linear`] for linear
+    /// primvars.
     pub fn patches(&self, places: &[PatchPlace]) -> Result<PatchStencils, StencilError> {
         match &self.net {
             Net::Smooth(net) => PatchStencils::new(net, places),
@@ -269,8 +272,9 @@ impl StencilBuilder {
         }
     }
 
-    /// The cage refined so many times, all of it, holes too. The faces of a face-varying primvar are
-    /// those of its own net: they come in the same order, but have vertices of their own at seams.
+    /// The cage refined so many times, all of it, holes too. The faces of a face-varying primvar
+    /// are those of its own net: they come in the same order, but have vertices of their own at
+    /// seams.
     ///
     /// # Errors
     ///
@@ -290,7 +294,7 @@ impl StencilBuilder {
 /// The net of a linear face-varying primvar.
 fn linear_net(layout: &Layout, primvar: &Primvar) -> Option<LinearNet> {
     let boundary = layout.options().boundary.unwrap_or(layout.tags().boundary);
-    let net = ChannelNet::new(layout.topology(), layout.tags(), primvar, boundary);
+    let net = PrimvarNet::new(layout.topology(), layout.tags(), primvar, boundary);
     let topology = layout.topology().with_vertices(net.faces, net.values.len()).ok()?;
     Some(LinearNet { topology: Arc::new(topology), columns: value_columns(primvar, net.values) })
 }

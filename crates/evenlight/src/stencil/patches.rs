@@ -38,7 +38,8 @@ impl PatchStencils {
         Ok(Self { firsts, stencils })
     }
 
-    /// The rows of all patches, one after the other, those of a patch with the index along v fastest.
+    /// The rows of all patches, one after the other, those of a patch with the index along v
+    /// fastest.
     pub fn stencils(&self) -> &Stencils {
         &self.stencils
     }

@@ -9,10 +9,10 @@ use crate::sparse::Stencils;
 
 /// The cage after some steps of Catmull-Clark refinement, as weights of its values.
 ///
-/// Its faces come in the order of the faces that they are parts of. A face of m corners has m children,
-/// one per corner; child k of a quad stands at corner k in the quad's orientation, child k of an n-gon
-/// begins with that corner. Vertices are numbered as faces first use them; vertices of the cage in no
-/// face are gone. At level 0 everything is as in the cage.
+/// Its faces come in the order of the faces that they are parts of. A face of m corners has m
+/// children, one per corner; child k of a quad stands at corner k in the quad's orientation, child
+/// k of an n-gon begins with that corner. Vertices are numbered as faces first use them; vertices
+/// of the cage in no face are gone. At level 0 everything is as in the cage.
 #[derive(Clone, Debug)]
 pub struct RefinedCage {
     /// The faces, counter-clockwise, by the rows of `stencils`.

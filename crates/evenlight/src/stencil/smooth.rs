@@ -6,7 +6,7 @@
 //! ```text
 //!   regular piece    4 x 4 nodes     products of B-splines
 //!   ring, cap        6 n + 1 nodes   products of Bernstein polynomials, times the weights of the
-//!                                    nodes in the coefficients of the patch ([`unit`](super::unit))
+//!                                    nodes in the coefficients of the patch (module `unit`)
 //! ```
 
 use std::sync::Arc;
@@ -38,7 +38,8 @@ struct PointNet<'a> {
     units: &'a UnitNets,
     level: usize,
     vertices: &'a [VertexId],
-    /// Of c-nets the centre is the first vertex, of fans the last, but always the last node of units.
+    /// Of c-nets the centre is the first vertex, of fans the last, but always the last node of
+    /// units.
     is_center_first: bool,
 }
 
@@ -148,8 +149,8 @@ impl SmoothNet {
         &self.columns
     }
 
-    /// Enters the R rows of a place, parameters from 0 to 1; `false` if there is no surface over the
-    /// quad.
+    /// Enters the R rows of a place, parameters from 0 to 1; `false` if there is no surface over
+    /// the quad.
     pub(super) fn place<const R: usize>(
         &self,
         quad: QuadId,
@@ -239,7 +240,8 @@ impl SmoothNet {
         Ok(())
     }
 
-    /// Enters the rows of a place in a patch by its bases; the limit point has its part in the position.
+    /// Enters the rows of a place in a patch by its bases; the limit point has its part in the
+    /// position.
     fn enter_spot<const R: usize>(
         &self,
         spot: &Spot<'_>,
@@ -331,16 +333,16 @@ impl SmoothNet {
     }
 }
 
-/// The factors of positions, first and second derivatives by a and b in a ring, for patch parameters
-/// that run once through all of a sector.
+/// The factors of positions, first and second derivatives by a and b in a ring, for patch
+/// parameters that run once through all of a sector.
 fn scales(units: &UnitNets, ring: usize) -> [f64; 3] {
     let lambda = units.rules().subdominant().lambda;
     let step = units.rules().rules().sigma();
     [lambda, lambda / step, lambda / (step * step)].map(|factor| power(factor, ring))
 }
 
-/// The patch of a cap that has a place of the hole, as [`Cap::eval`](crate::cap::Cap::eval) chooses it,
-/// the parameters in that patch, and its size.
+/// The patch of a cap that has a place of the hole, as [`Cap::eval`](crate::cap::Cap::eval) chooses
+/// it, the parameters in that patch, and its size.
 fn in_cap_patch(at: [f64; 2], split: usize) -> (usize, [f64; 2], f64) {
     let m = split as f64;
     let part = at.map(|x| ((x * m).ceil() as usize).saturating_sub(1).min(split - 1));

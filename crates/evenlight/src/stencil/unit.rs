@@ -3,8 +3,8 @@
 //!
 //! Everything around an extraordinary point is linear in its net, from the limit point to the
 //! coefficients of the cap, so its row of weights is read off the surfaces of unit nets, which the
-//! code of all other surfaces makes. Their coordinates are numbers, [`WIDTH`] at a time. If the rules
-//! commute with turning, the nodes of one sector are enough:
+//! code of all other surfaces makes. Their coordinates are numbers, [`WIDTH`] at a time. If the
+//! rules commute with turning, the nodes of one sector are enough:
 //!
 //! ```text
 //!   weight of node j of sector t in a patch of sector 0
@@ -14,8 +14,8 @@
 //! Numbers are scaled as in [`rings`](crate::rings), by lambda^l in ring l; they lie in no tangent
 //! plane, so heights are scaled like everything else.
 //!
-//! Fans of many faces have too many nodes for that. Their rules are sparse, and a row goes back through
-//! the refinements instead, from the patch that is asked for to the net (module
+//! Fans of many faces have too many nodes for that. Their rules are sparse, and a row goes back
+//! through the refinements instead, from the patch that is asked for to the net (module
 //! [`backwards`](super::backwards)).
 
 use std::sync::{Arc, OnceLock};

@@ -1,7 +1,7 @@
 //! Evaluation from arrays into arrays, for callers from other languages.
 //!
-//! A row of the answers holds the N numbers of the position, or of the value of a primvar, then those
-//! of its derivatives up to the order asked for:
+//! A row of the answers holds the N numbers of the position, or of the value of a primvar, then
+//! those of its derivatives up to the order asked for:
 //!
 //! ```text
 //!   order 0: p              order 1: p u v            order 2: p u v uu uv vv
@@ -129,8 +129,8 @@ impl Layout {
 }
 
 impl<const N: usize> Surface<N> {
-    /// Evaluates at places (u, v) of parametric quads with derivatives up to `order` 0, 1 or 2, into
-    /// rows of the caller's array as the module says. The bits are those of
+    /// Evaluates at places (u, v) of parametric quads with derivatives up to `order` 0, 1 or 2,
+    /// into rows of the caller's array as the module says. The bits are those of
     /// [`Surface::eval_as`], rounded if the array is of `f32`.
     ///
     /// ```
@@ -236,7 +236,8 @@ pub struct PatchBlock {
 }
 
 impl<const N: usize> Surface<N> {
-    /// The patches of [`Surface::patches`] as flat blocks, a block for every bi-degree, in rising order.
+    /// The patches of [`Surface::patches`] as flat blocks, a block for every bi-degree, in rising
+    /// order.
     ///
     /// ```
     /// use evenlight::{Cage, Mesh, Surface, SurfaceOptions};

@@ -40,15 +40,17 @@ impl SharedRules {
 /// wants to free the memory, or to keep its own apart, makes one and hands it to
 /// [`Layout::with_cache`](super::Layout::with_cache). Clones are the same cache.
 ///
-/// When it is full, what was not used for the longest time is dropped; surfaces keep the rules that they have.
+/// When it is full, what was not used for the longest time is dropped; surfaces keep the rules that
+/// they have.
 ///
 /// ```
 /// use evenlight::surface::{Layout, RuleCache};
 /// use evenlight::{Cage, Mesh, SurfaceOptions};
 ///
-/// let positions = (0..8).map(|k| [(k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64]).collect();
-/// let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-/// let cage = Cage::new(Mesh::new(positions, faces))?;
+/// let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(f64::from);
+/// let sides =
+///     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+/// let cage = Cage::new(Mesh::new((0..8).map(corner).collect(), sides))?;
 /// let cache = RuleCache::default();
 /// Layout::with_cache(&cage, SurfaceOptions::default(), &cache)?;
 /// assert_eq!(cache.len(), 1, "all corners have valence 3");
@@ -133,8 +135,8 @@ impl RuleCache {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The rules of a fan that has this rule. There must be some: [`PointRule::of`] asks before, and
-    /// Catmull-Clark has all.
+    /// The rules of a fan that has this rule. There must be some: [`PointRule::of`] asks before,
+    /// and Catmull-Clark has all.
     pub(super) fn rules(
         &self,
         rule: PointRule,

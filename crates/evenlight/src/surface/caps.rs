@@ -57,12 +57,12 @@ impl<const N: usize> Caps<N> {
 }
 
 impl<const N: usize> Surface<N> {
-    /// Replaces the rings behind the first `options.rings` by caps, finitely many patches; `None` for
-    /// rings without end.
+    /// Replaces the rings behind the first `options.rings` by caps, finitely many patches; `None`
+    /// for rings without end.
     ///
-    /// A surface that is closed like this has derivatives at extraordinary points too, and curvature
-    /// where there is a tangent plane. Takes some hundredths of a second per valence, once; caps
-    /// themselves are made when first asked for.
+    /// A surface that is closed like this has derivatives at extraordinary points too, and
+    /// curvature where there is a tangent plane. Takes some hundredths of a second per valence,
+    /// once; caps themselves are made when first asked for.
     ///
     /// # Errors
     ///
@@ -71,7 +71,7 @@ impl<const N: usize> Surface<N> {
         let plan = options.map(|options| CapPlan::new(&self.layout, options)).transpose()?;
         self.caps = plan.map(|plan| Caps::new(Arc::new(plan)));
         // Primvars are closed likewise.
-        self.channels = primvar::unbuilt(&self.primvars);
+        self.primvar_surfaces = primvar::unbuilt(&self.primvars);
         Ok(())
     }
 
@@ -84,8 +84,8 @@ impl<const N: usize> Surface<N> {
         self.caps.as_ref().map(|caps| &caps.plan)
     }
 
-    /// The cap around an extraordinary point, by its index; `None` if rings go on for ever, or there is
-    /// no such point.
+    /// The cap around an extraordinary point, by its index; `None` if rings go on for ever, or
+    /// there is no such point.
     #[inline]
     pub fn cap(&self, point: usize) -> Option<&Cap<N>> {
         let caps = self.caps.as_ref()?;

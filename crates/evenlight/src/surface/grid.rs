@@ -15,8 +15,8 @@ use crate::rings::for_each_pair;
 
 impl<const N: usize> Surface<N> {
     /// Evaluates at all pairs of the parameters `us` and `vs` of a quad. The answer at `us[i]`,
-    /// `vs[j]` is number i * `vs.len()` + j, the v index fastest as in patches; the same bits as from [`Surface::eval_as`]; NaN where
-    /// there is no surface.
+    /// `vs[j]` is number i * `vs.len()` + j, the v index fastest as in patches; the same bits as
+    /// from [`Surface::eval_as`]; NaN where there is no surface.
     ///
     /// # Errors
     ///

@@ -7,8 +7,8 @@
 //!          +-- positions, primvars -----------+--> Surface<N>: a primvar of N numbers
 //! ```
 //!
-//! Which pieces cover which face, where the extraordinary points are and which rules they have. It is
-//! shared by all poses of a cage and by its primvars.
+//! Which pieces cover which face, where the extraordinary points are and which rules they have. It
+//! is shared by all poses of a cage and by its primvars.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -141,8 +141,8 @@ impl Layout {
         Self::of_net(topology, tags, BTreeMap::new(), options, cache)
     }
 
-    /// The layout over faces with tags; of a face-varying primvar, `beyond` are the edges beyond its
-    /// seams.
+    /// The layout over faces with tags; of a face-varying primvar, `beyond` are the edges beyond
+    /// its seams.
     pub(super) fn of_net(
         topology: Arc<Topology>,
         tags: Arc<Tags>,
@@ -225,8 +225,8 @@ impl Layout {
         (quad < end).then_some(QuadId(quad))
     }
 
-    /// The face of `quad`, and the corner if the face is an n-gon (else 0); `None` if there is no such
-    /// quad.
+    /// The face of `quad`, and the corner if the face is an n-gon (else 0); `None` if there is no
+    /// such quad.
     pub fn face_of(&self, quad: QuadId) -> Option<(FaceId, usize)> {
         ((quad.0 as usize) < self.num_quads()).then(|| self.face_of_quad(quad))
     }
@@ -270,8 +270,8 @@ impl Layout {
         &self.rules[point]
     }
 
-    /// The vertices of the net of a point, at the level at which it is isolated: of a c-net the centre
-    /// and six for each sector, of a fan as in [`fan_vertices`].
+    /// The vertices of the net of a point, at the level at which it is isolated: of a c-net the
+    /// centre and six for each sector, of a fan as in [`fan_vertices`].
     pub(crate) fn net_vertices(&self, point: usize) -> &[VertexId] {
         &self.net_vertices[self.net_starts[point]..self.net_starts[point + 1]]
     }
@@ -281,8 +281,8 @@ impl Layout {
         &self.cache
     }
 
-    /// A hash of faces, tags and options: equal layouts have equal ones. Not to be stored, as another
-    /// version of the library may hash otherwise.
+    /// A hash of faces, tags and options: equal layouts have equal ones. Not to be stored, as
+    /// another version of the library may hash otherwise.
     pub fn fingerprint(&self) -> u64 {
         self.fingerprint
     }

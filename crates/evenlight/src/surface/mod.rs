@@ -15,8 +15,9 @@
 //! pieces ([`isolation`](crate::mesh::isolation)). Evaluation finds the piece and its own
 //! parameters; all pieces are parts of one surface.
 //!
-//! A surface is a [`Layout`], which knows topology, tags and options, and the values at the vertices
-//! of the cage. Positions are values of three numbers; primvars, of one to four, are surfaces too.
+//! A surface is a [`Layout`], which knows topology, tags and options, and the values at the
+//! vertices of the cage. Positions are values of three numbers; primvars, of one to four, are
+//! surfaces too.
 
 mod arrays;
 mod cache;
@@ -74,7 +75,7 @@ pub struct Surface<const N: usize = 3> {
     /// The primvars of the cage; of a primvar none.
     primvars: Arc<[Primvar]>,
     /// Their surfaces, built when they are first asked for, shared with all poses.
-    channels: Vec<Arc<OnceLock<primvar::Channel>>>,
+    primvar_surfaces: Vec<Arc<OnceLock<primvar::PrimvarSurface>>>,
 }
 
 impl Surface {
@@ -131,8 +132,8 @@ impl Surface {
         self.values()
     }
 
-    /// The same surface over other positions of the cage's vertices, with the same layout, kind of caps
-    /// and primvars. Quadratics are the default ones again.
+    /// The same surface over other positions of the cage's vertices, with the same layout, kind of
+    /// caps and primvars. Quadratics are the default ones again.
     ///
     /// ```
     /// use evenlight::{Cage, Mesh, QuadId, Surface, SurfaceOptions};
@@ -166,9 +167,9 @@ impl Surface {
     /// Position, derivatives, normal and curvature at (u,v) of `quad`, which are clamped to
     /// 0..1; `None` if the face is omitted, there is no such quad or a parameter is NaN.
     ///
-    /// At an extraordinary point itself, unless a cap is there, the position is the limit point and the
-    /// normal the limit normal; derivatives do not exist there and are NaN, nor does curvature but for
-    /// schemes with a quadratic or a guide, where it is that of q or of the guide
+    /// At an extraordinary point itself, unless a cap is there, the position is the limit point and
+    /// the normal the limit normal; derivatives do not exist there and are NaN, nor does curvature
+    /// but for schemes with a quadratic or a guide, where it is that of q or of the guide
     /// ([`Rings::center_curvature`]). Anywhere else, however near, all are exact to rounding
     /// ([`Rings::eval`]).
     pub fn eval(&self, quad: QuadId, u: f64, v: f64) -> Option<SurfacePoint> {
@@ -195,15 +196,15 @@ impl<const N: usize> Surface<N> {
     ) -> Self {
         let levels = refined(&layout, values);
         let rings = unmade(layout.extraordinary_points().len());
-        let channels = primvar::unbuilt(&primvars);
-        Self { layout, levels, rings, caps: None, primvars, channels }
+        let primvar_surfaces = primvar::unbuilt(&primvars);
+        Self { layout, levels, rings, caps: None, primvars, primvar_surfaces }
     }
 
-    /// The same surface over other values, with the same layout, kind of caps and primvars. Quadratics
-    /// are the default ones again.
+    /// The same surface over other values, with the same layout, kind of caps and primvars.
+    /// Quadratics are the default ones again.
     ///
-    /// Takes the time of checking the values and refining what is refined; rings and caps are made when
-    /// they are asked for.
+    /// Takes the time of checking the values and refining what is refined; rings and caps are made
+    /// when they are asked for.
     ///
     /// # Errors
     ///
@@ -216,7 +217,7 @@ impl<const N: usize> Surface<N> {
             rings: unmade(self.rings.len()),
             caps: self.caps.as_ref().map(Caps::unmade),
             primvars: self.primvars.clone(),
-            channels: self.channels.clone(),
+            primvar_surfaces: self.primvar_surfaces.clone(),
         })
     }
 

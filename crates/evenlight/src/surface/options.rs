@@ -22,13 +22,14 @@ pub struct SurfaceOptions {
 /// The rings of a vertex on an infinitely sharp crease or the boundary, of which the faces on one
 /// side are not two.
 ///
-/// The curve of the crease is the same with both, the cubic spline of its vertices, and so is all of the
-/// surface but for these points. Darts, corners and semi-sharp features keep Catmull-Clark's rules.
+/// The curve of the crease is the same with both, the cubic spline of its vertices, and so is all
+/// of the surface but for these points. Darts, corners and semi-sharp features keep Catmull-Clark's
+/// rules.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CreaseRings {
-    /// Catmull-Clark's \[CC78\], \[DKT98\], as in OpenSubdiv: without a tangent plane from four faces
-    /// on, and with curvature that grows without bounds.
+    /// Catmull-Clark's \[CC78\], \[DKT98\], as in OpenSubdiv: without a tangent plane from four
+    /// faces on, and with curvature that grows without bounds.
     #[default]
     CatmullClark,
     /// Fairness-optimal rings, ours: tangent plane and bounded curvature for 1 to

@@ -182,7 +182,8 @@ impl Collector<'_> {
 
 impl<const N: usize> Surface<N> {
     /// All regular patches and the first `rings` rings of every extraordinary point, at most
-    /// [`MAX_RINGS`], quad by quad; of a closed surface no more rings than it has, and if it is all of them the caps.
+    /// [`MAX_RINGS`], quad by quad; of a closed surface no more rings than it has, and if it is all
+    /// of them the caps.
     pub fn patches(&self, rings: usize) -> impl Iterator<Item = PlacedPatch<N>> + '_ {
         self.patch_places(rings).map(|place| {
             let patch = self.patch_at(&place);

@@ -31,7 +31,8 @@ pub enum Role {
     Cap,
 }
 
-/// The word used in files, which count rings from 1: `regular`, `ring-1`, `ring-2` and so on, `cap`.
+/// The word used in files, which count rings from 1: `regular`, `ring-1`, `ring-2` and so on,
+/// `cap`.
 impl fmt::Display for Role {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -53,7 +54,8 @@ pub struct PatchPlace {
     /// same directions.
     pub domain: [[f64; 2]; 2],
     /// The extraordinary point it belongs to, as an index into
-    /// [`Surface::extraordinary_points`](super::Surface::extraordinary_points); `None` for regular patches.
+    /// [`Surface::extraordinary_points`](super::Surface::extraordinary_points); `None` for regular
+    /// patches.
     pub point: Option<usize>,
     /// The sector of that point, from 0.
     pub sector: Option<usize>,

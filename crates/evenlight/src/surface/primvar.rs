@@ -10,20 +10,20 @@
 //! surface's scheme there; elsewhere Catmull-Clark's rules, also if positions have
 //! fair rings beside creases ([`CreaseRings::Fair`]).
 //!
-//! A vertex primvar has the layout of the positions, a face-varying one a layout of its own. Both are
-//! [`Surface`]s of as many numbers as the primvar has, built when they are first asked for.
+//! A vertex primvar has the layout of the positions, a face-varying one a layout of its own. Both
+//! are [`Surface`]s of as many numbers as the primvar has, built when they are first asked for.
 
 use std::sync::{Arc, OnceLock};
 
 use super::{CreaseRings, Layout, QuadId, Surface, SurfaceOptions};
 use crate::cap::CapOptions;
-use crate::mesh::channel::ChannelNet;
+use crate::mesh::primvar_net::PrimvarNet;
 use crate::mesh::{FaceVaryingRule, Interpolation, Primvar};
 use crate::patch::Jet;
 
 /// A primvar that can be evaluated.
 #[derive(Debug)]
-pub(super) enum Channel {
+pub(super) enum PrimvarSurface {
     /// Bilinear over every quad.
     Linear,
     /// Smooth, by its width.
@@ -37,7 +37,7 @@ pub(super) enum Channel {
     None,
 }
 
-impl Channel {
+impl PrimvarSurface {
     fn new(layout: &Arc<Layout>, caps: Option<CapOptions>, primvar: &Primvar) -> Self {
         let over = match primvar.interpolation {
             Interpolation::Varying => return Self::Linear,
@@ -65,7 +65,7 @@ impl Channel {
     fn own_layout(layout: &Layout, primvar: &Primvar) -> Option<(Arc<Layout>, Vec<u32>)> {
         let options = layout.options();
         let boundary = options.boundary.unwrap_or(layout.tags().boundary);
-        let net = ChannelNet::new(layout.topology(), layout.tags(), primvar, boundary);
+        let net = PrimvarNet::new(layout.topology(), layout.tags(), primvar, boundary);
         // The primvar has a boundary rule of its own, and at its seams what others make of it.
         let creases = CreaseRings::CatmullClark;
         let options = SurfaceOptions { boundary: None, creases, ..options };
@@ -77,9 +77,10 @@ impl Channel {
     }
 }
 
-/// The layout of a smooth face-varying primvar, and the number of the value at each of its vertices.
+/// The layout of a smooth face-varying primvar, and the number of the value at each of its
+/// vertices.
 pub(crate) fn own_layout(layout: &Layout, primvar: &Primvar) -> Option<(Arc<Layout>, Vec<u32>)> {
-    Channel::own_layout(layout, primvar)
+    PrimvarSurface::own_layout(layout, primvar)
 }
 
 /// The surface of a primvar over a layout at whose vertices it has the values of these numbers.
@@ -135,8 +136,8 @@ impl Surface {
     }
 
     /// Value and derivatives of a primvar, by its index, at (u,v) of `quad`, which are clamped to
-    /// 0..1: its first N numbers, those beyond its width being 0. `None` where [`Surface::eval`] is, and
-    /// if there is no such primvar.
+    /// 0..1: its first N numbers, those beyond its width being 0. `None` where [`Surface::eval`]
+    /// is, and if there is no such primvar.
     ///
     /// Derivatives do not exist (NaN) where those of a surface do not: at extraordinary points.
     ///
@@ -160,33 +161,41 @@ impl Surface {
         u: f64,
         v: f64,
     ) -> Option<Jet<N>> {
-        match self.channel(primvar)? {
-            Channel::Linear => self.eval_linear(primvar, quad, [u, v]),
-            Channel::Smooth1(surface) => surface.eval_second(quad, u, v).map(|jet| resized(&jet)),
-            Channel::Smooth2(surface) => surface.eval_second(quad, u, v).map(|jet| resized(&jet)),
-            Channel::Smooth3(surface) => surface.eval_second(quad, u, v).map(|jet| resized(&jet)),
-            Channel::Smooth4(surface) => surface.eval_second(quad, u, v).map(|jet| resized(&jet)),
-            Channel::None => None,
+        match self.built_primvar(primvar)? {
+            PrimvarSurface::Linear => self.eval_linear(primvar, quad, [u, v]),
+            PrimvarSurface::Smooth1(surface) => {
+                surface.eval_second(quad, u, v).map(|jet| resized(&jet))
+            }
+            PrimvarSurface::Smooth2(surface) => {
+                surface.eval_second(quad, u, v).map(|jet| resized(&jet))
+            }
+            PrimvarSurface::Smooth3(surface) => {
+                surface.eval_second(quad, u, v).map(|jet| resized(&jet))
+            }
+            PrimvarSurface::Smooth4(surface) => {
+                surface.eval_second(quad, u, v).map(|jet| resized(&jet))
+            }
+            PrimvarSurface::None => None,
         }
     }
 
-    /// The surface of a primvar, by its index, if it is smooth and has N numbers; for everything that
-    /// surfaces can do.
+    /// The surface of a primvar, by its index, if it is smooth and has N numbers; for everything
+    /// that surfaces can do.
     pub fn primvar_surface<const N: usize>(&self, primvar: usize) -> Option<&Surface<N>> {
-        let surface: &dyn std::any::Any = match self.channel(primvar)? {
-            Channel::Smooth1(surface) => surface,
-            Channel::Smooth2(surface) => surface,
-            Channel::Smooth3(surface) => surface,
-            Channel::Smooth4(surface) => surface,
-            Channel::Linear | Channel::None => return None,
+        let surface: &dyn std::any::Any = match self.built_primvar(primvar)? {
+            PrimvarSurface::Smooth1(surface) => surface,
+            PrimvarSurface::Smooth2(surface) => surface,
+            PrimvarSurface::Smooth3(surface) => surface,
+            PrimvarSurface::Smooth4(surface) => surface,
+            PrimvarSurface::Linear | PrimvarSurface::None => return None,
         };
         surface.downcast_ref()
     }
 
-    fn channel(&self, primvar: usize) -> Option<&Channel> {
+    fn built_primvar(&self, primvar: usize) -> Option<&PrimvarSurface> {
         let of_cage = self.primvars.get(primvar)?;
-        let make = || Channel::new(&self.layout, self.cap_options(), of_cage);
-        Some(self.channels[primvar].get_or_init(make))
+        let make = || PrimvarSurface::new(&self.layout, self.cap_options(), of_cage);
+        Some(self.primvar_surfaces[primvar].get_or_init(make))
     }
 
     /// The values of a primvar where lines of constant u meet lines of constant v, as
@@ -199,16 +208,16 @@ impl Surface {
         vs: &[f64],
     ) -> Option<Vec<[f64; 4]>> {
         let all = |surface: &dyn GridOfValues| surface.values(quad, us, vs);
-        match self.channel(primvar)? {
-            Channel::Linear => {
+        match self.built_primvar(primvar)? {
+            PrimvarSurface::Linear => {
                 let places = us.iter().flat_map(|&u| vs.iter().map(move |&v| [u, v]));
                 places.map(|at| Some(self.eval_linear(primvar, quad, at)?.p)).collect()
             }
-            Channel::Smooth1(surface) => Some(all(surface)),
-            Channel::Smooth2(surface) => Some(all(surface)),
-            Channel::Smooth3(surface) => Some(all(surface)),
-            Channel::Smooth4(surface) => Some(all(surface)),
-            Channel::None => None,
+            PrimvarSurface::Smooth1(surface) => Some(all(surface)),
+            PrimvarSurface::Smooth2(surface) => Some(all(surface)),
+            PrimvarSurface::Smooth3(surface) => Some(all(surface)),
+            PrimvarSurface::Smooth4(surface) => Some(all(surface)),
+            PrimvarSurface::None => None,
         }
     }
 
@@ -263,6 +272,6 @@ impl<const N: usize> GridOfValues for Surface<N> {
 }
 
 /// Places for the surfaces of primvars, none of them built.
-pub(super) fn unbuilt(primvars: &[Primvar]) -> Vec<Arc<OnceLock<Channel>>> {
+pub(super) fn unbuilt(primvars: &[Primvar]) -> Vec<Arc<OnceLock<PrimvarSurface>>> {
     primvars.iter().map(|_| Arc::default()).collect()
 }

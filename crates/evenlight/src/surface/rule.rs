@@ -55,8 +55,8 @@ impl PointRule {
         Self::CatmullClark(reason)
     }
 
-    /// A word for files and tables: the name of the scheme whose rings the point has, `chosen` being
-    /// that of the surface, or "fair-crease".
+    /// A word for files and tables: the name of the scheme whose rings the point has, `chosen`
+    /// being that of the surface, or "fair-crease".
     pub fn name(self, chosen: SchemeKind) -> &'static str {
         match self {
             Self::Scheme => chosen.name(),

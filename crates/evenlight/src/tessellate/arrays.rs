@@ -55,7 +55,8 @@ impl TriangleMesh {
     ///
     /// # Errors
     ///
-    /// [`ArrayError::Length`] if an array has not as many entries as the mesh has; no array is changed.
+    /// [`ArrayError::Length`] if an array has not as many entries as the mesh has; no array is
+    /// changed.
     pub fn write_arrays<T: Number>(&self, arrays: TriangleArrays<'_, T>) -> Result<(), ArrayError> {
         let TriangleArrays { positions, normals, curvature, triangles, corner_sides } = arrays;
         let (vertices, sides) = (self.positions.len(), self.normals.len());

@@ -20,7 +20,7 @@ pub struct CornerValues {
 
 /// What the files of triangles hold beside normals: texture coordinates and a colour.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct CornerChannels {
+pub struct CornerPrimvars {
     /// The texture coordinates, the first two numbers of each value; `st` or `uv` first, the others
     /// in the order of the surface's primvars. See [`Primvar::is_uv_set`].
     pub uv_sets: Vec<CornerValues>,
@@ -33,14 +33,14 @@ const NONE: u32 = u32::MAX;
 
 impl TriangleMesh {
     /// The values of a primvar of `surface`, by its index, at the corners of this tessellation of
-    /// it. A vertex has one value where the channel is continuous, and several at seams.
+    /// it. A vertex has one value where the primvar is continuous, and several at seams.
     ///
     /// `None` if there is no such primvar or the mesh is not of this surface.
     pub fn corner_values(&self, surface: &Surface, primvar: usize) -> Option<CornerValues> {
         /// Quads whose values are held at a time, all those of their grids.
         const SLICE: usize = 256;
-        let channel = surface.primvars().get(primvar)?;
-        let seams = Seams { topology: surface.topology(), primvar: channel };
+        let of_cage = surface.primvars().get(primvar)?;
+        let seams = Seams { topology: surface.topology(), primvar: of_cage };
         let mut found = Collector::new(seams, self.positions.len());
         found.corners.reserve_exact(self.triangles.len());
         for slice in self.quads.chunks(SLICE) {
@@ -50,18 +50,19 @@ impl TriangleMesh {
             }
         }
         let Collector { values, corners, .. } = found;
-        Some(CornerValues { name: channel.name.clone(), width: channel.width, values, corners })
+        let (name, width) = (of_cage.name.clone(), of_cage.width);
+        Some(CornerValues { name, width, values, corners })
     }
 
     /// The texture coordinates and the colour of `surface` at the corners of this tessellation of
     /// it.
-    pub fn corner_channels(&self, surface: &Surface) -> CornerChannels {
+    pub fn corner_primvars(&self, surface: &Surface) -> CornerPrimvars {
         let primvars = || surface.primvars().iter().enumerate();
         let mut uv_sets: Vec<_> = primvars().filter(|(_, p)| p.is_uv_set()).collect();
         uv_sets.sort_by_key(|(_, p)| !p.has_uv_name());
         let color = primvars().find(|(_, p)| p.is_color());
         let values = |(k, _): (usize, &Primvar)| self.corner_values(surface, k);
-        CornerChannels {
+        CornerPrimvars {
             uv_sets: uv_sets.into_iter().filter_map(values).collect(),
             color: color.and_then(values),
         }

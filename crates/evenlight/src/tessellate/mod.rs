@@ -28,8 +28,8 @@
 //! | watertight, for measuring, printing and simulation | `positions` | `triangles` |
 //! | shaded, hard at creases | of every side, `positions[vertex_of_side(side)]` and `normals` | [`sides()`](TriangleMesh::sides) |
 //!
-//! [`TriangleMesh::split`] makes vertices for graphics, also at the seams of channels such as
-//! texture coordinates ([`TriangleMesh::corner_values`], [`TriangleMesh::corner_channels`]).
+//! [`TriangleMesh::split`] makes vertices for graphics, also at the seams of primvars such as
+//! texture coordinates ([`TriangleMesh::corner_values`], [`TriangleMesh::corner_primvars`]).
 //!
 //! What is not: the triangles may intersect where the surface does. Faces without a surface
 //! are left out, and where two faces with a surface share nothing but a vertex, so do their
@@ -43,7 +43,7 @@ mod sides;
 mod split;
 
 pub use arrays::TriangleArrays;
-pub use corners::{CornerChannels, CornerValues};
+pub use corners::{CornerPrimvars, CornerValues};
 pub use split::SplitVertices;
 
 use std::collections::BTreeMap;

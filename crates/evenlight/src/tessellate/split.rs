@@ -12,12 +12,12 @@
 
 use super::{CornerValues, TriangleMesh};
 
-/// The vertices of a mesh, split where sides or values of channels differ.
+/// The vertices of a mesh, split where sides or values of primvars differ.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SplitVertices {
     /// The side of each split vertex; the first are the sides themselves.
     pub sides: Vec<u32>,
-    /// For each channel the number of the value of each split vertex.
+    /// For each primvar the number of the value of each split vertex.
     pub values: Vec<Vec<u32>>,
     /// The corners of the triangles, as numbers of split vertices.
     pub triangles: Vec<[u32; 3]>,
@@ -27,26 +27,26 @@ pub struct SplitVertices {
 const NONE: u32 = u32::MAX;
 
 impl TriangleMesh {
-    /// Splits vertices so that each has one normal and one value of every channel, which must be of
+    /// Splits vertices so that each has one normal and one value of every primvar, which must be of
     /// this mesh ([`TriangleMesh::corner_values`]).
     ///
     /// Split vertices of one vertex have the position of [`TriangleMesh::vertex_of_side`], so that
-    /// welding by position gives back `triangles`. `None` if a channel has not as many triangles as
+    /// welding by position gives back `triangles`. `None` if a primvar has not as many triangles as
     /// the mesh.
-    pub fn split(&self, channels: &[&CornerValues]) -> Option<SplitVertices> {
-        let fits = |channel: &&CornerValues| channel.corners.len() == self.triangles.len();
-        channels.iter().all(fits).then(|| self.split_by(channels))
+    pub fn split(&self, primvars: &[&CornerValues]) -> Option<SplitVertices> {
+        let fits = |primvar: &&CornerValues| primvar.corners.len() == self.triangles.len();
+        primvars.iter().all(fits).then(|| self.split_by(primvars))
     }
 
-    /// [`TriangleMesh::split`] by channels of this mesh.
-    pub(crate) fn split_by(&self, channels: &[&CornerValues]) -> SplitVertices {
-        let mut splitter = Splitter::new(self.normals.len(), channels.len());
+    /// [`TriangleMesh::split`] by primvars of this mesh.
+    pub(crate) fn split_by(&self, primvars: &[&CornerValues]) -> SplitVertices {
+        let mut splitter = Splitter::new(self.normals.len(), primvars.len());
         let mut triangles = self.sides().to_vec();
-        if !channels.is_empty() {
+        if !primvars.is_empty() {
             for (t, triangle) in triangles.iter_mut().enumerate() {
                 for (k, corner) in triangle.iter_mut().enumerate() {
-                    let value = |channel: &&CornerValues| channel.corners[t][k];
-                    *corner = splitter.vertex(*corner, channels.iter().map(value));
+                    let value = |primvar: &&CornerValues| primvar.corners[t][k];
+                    *corner = splitter.vertex(*corner, primvars.iter().map(value));
                 }
             }
         }
@@ -64,16 +64,16 @@ struct Splitter {
 }
 
 impl Splitter {
-    fn new(num_sides: usize, num_channels: usize) -> Self {
+    fn new(num_sides: usize, num_primvars: usize) -> Self {
         Self {
             sides: (0..num_sides as u32).collect(),
-            values: vec![vec![0; num_sides]; num_channels],
+            values: vec![vec![0; num_sides]; num_primvars],
             is_met: vec![false; num_sides],
             next: vec![NONE; num_sides],
         }
     }
 
-    /// The split vertex of `side` with these values, one for each channel.
+    /// The split vertex of `side` with these values, one for each primvar.
     fn vertex(&mut self, side: u32, values: impl Iterator<Item = u32> + Clone) -> u32 {
         if !std::mem::replace(&mut self.is_met[side as usize], true) {
             self.values.iter_mut().zip(values).for_each(|(of, x)| of[side as usize] = x);

@@ -7,14 +7,14 @@ use crate::mesh::{MAX_LISTED, one_per_line};
 
 /// Why a file cannot be read: its faulty lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError {
+pub struct ObjError {
     /// The first faulty lines in order, 20 at most and at least one.
     pub faults: Vec<LineFault>,
     /// The number of faulty lines after those.
     pub num_more: usize,
 }
 
-impl fmt::Display for ReadError {
+impl fmt::Display for ObjError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let listed: Vec<String> = self.faults.iter().map(LineFault::to_string).collect();
         let total = listed.len() + self.num_more;
@@ -22,7 +22,7 @@ impl fmt::Display for ReadError {
     }
 }
 
-impl std::error::Error for ReadError {}
+impl std::error::Error for ObjError {}
 
 /// A fault of a line; the first one if it has several.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,7 +69,7 @@ impl fmt::Display for Element {
 /// What the numbers in a corner of a face are of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Channel {
+pub enum IndexKind {
     /// Vertices, `v`.
     Vertex,
     /// Texture coordinates, `vt`.
@@ -78,7 +78,7 @@ pub enum Channel {
     Normal,
 }
 
-impl fmt::Display for Channel {
+impl fmt::Display for IndexKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Vertex => "vertex",
@@ -128,23 +128,23 @@ pub enum Reason {
         text: String,
     },
     /// A corner has the number 0.
-    #[error("`{text}` asks for {channel} 0, but the first has number 1: correct the number")]
+    #[error("`{text}` asks for {kind} 0, but the first has number 1: correct the number")]
     IndexZero {
         /// The corner.
         text: String,
         /// What the number is of.
-        channel: Channel,
+        kind: IndexKind,
     },
     /// A corner has a number that is greater than how many there are in the file.
     #[error(
-        "`{text}` asks for {channel} {index}, but the file has {count}: correct the number or \
+        "`{text}` asks for {kind} {index}, but the file has {count}: correct the number or \
          add what is missing"
     )]
     IndexTooLarge {
         /// The corner.
         text: String,
         /// What the number is of.
-        channel: Channel,
+        kind: IndexKind,
         /// The number as it is written.
         index: String,
         /// How many there are.
@@ -152,14 +152,14 @@ pub enum Reason {
     },
     /// A corner counts back past the beginning.
     #[error(
-        "`{text}` asks for {channel} {index}, but {count} come before it: correct the number or \
+        "`{text}` asks for {kind} {index}, but {count} come before it: correct the number or \
          move the line to after what it asks for"
     )]
     IndexBeforeFirst {
         /// The corner.
         text: String,
         /// What the number is of.
-        channel: Channel,
+        kind: IndexKind,
         /// The number as it is written, which is negative.
         index: String,
         /// How many come before it.
@@ -280,11 +280,11 @@ impl Faults {
     }
 
     /// The error that lists the faults, if there are any.
-    pub fn into_result(self) -> Result<(), ReadError> {
+    pub fn into_result(self) -> Result<(), ObjError> {
         if self.kept.is_empty() {
             return Ok(());
         }
-        Err(ReadError { faults: self.kept, num_more: self.num_more })
+        Err(ObjError { faults: self.kept, num_more: self.num_more })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::channels::Channels;
-use super::fault::{Channel, Element, Faults, LineFault, ReadError, Reason, excerpt};
+use super::fault::{Element, Faults, IndexKind, LineFault, ObjError, Reason, excerpt};
+use super::primvars::Primvars;
 use super::skipped::Skipped;
 use super::tag::{self, Outcome};
 use super::words::Words;
@@ -30,10 +30,10 @@ impl Default for Limits {
 }
 
 /// [`super::read`] under `limits`, which tests can reach.
-pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Obj, ReadError> {
+pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Obj, ObjError> {
     if let Some(what) = Kind::not_obj(bytes) {
         let fault = LineFault { line: 1, element: None, reason: Reason::OtherKind { what } };
-        return Err(ReadError { faults: vec![fault], num_more: 0 });
+        return Err(ObjError { faults: vec![fault], num_more: 0 });
     }
     let mut reader = ObjReader::new(bytes, limits);
     let complete = reader.read_lines();
@@ -55,7 +55,7 @@ struct ObjReader<'a> {
     positions: Vec<Point>,
     faces: Faces,
     num_normals: usize,
-    channels: Channels,
+    primvars: Primvars,
     tags: Tags,
     source: Source,
     unknown: UnknownTags<'a>,
@@ -85,7 +85,7 @@ impl<'a> ObjReader<'a> {
             positions: Vec::new(),
             faces: Faces::default(),
             num_normals: 0,
-            channels: Channels::default(),
+            primvars: Primvars::default(),
             tags: Tags::default(),
             source: Source::default(),
             unknown: UnknownTags::default(),
@@ -130,7 +130,7 @@ impl<'a> ObjReader<'a> {
                 self.face(line).map_err(fault(Some(element)))?;
             }
             b"vt" => {
-                let element = Element::Texture(self.channels.num_textures() as u64 + 1);
+                let element = Element::Texture(self.primvars.num_textures() as u64 + 1);
                 self.texture(tag).map_err(fault(Some(element)))?;
             }
             b"t" => self.tag(tag, line).map_err(fault(None))?,
@@ -157,7 +157,7 @@ impl<'a> ObjReader<'a> {
             }
             (6, _) => {
                 numbers.refuse_non_finite()?;
-                self.channels.add_color(numbers.values);
+                self.primvars.add_color(numbers.values);
             }
             _ => drop(Skipped::count(&mut self.skipped, tag, line)),
         }
@@ -165,9 +165,9 @@ impl<'a> ObjReader<'a> {
     }
 
     fn texture(&mut self, tag: &[u8]) -> Result<(), Reason> {
-        room("texture coordinates", self.channels.num_textures() + 1, self.limits.corners)?;
+        room("texture coordinates", self.primvars.num_textures() + 1, self.limits.corners)?;
         let numbers = self.numbers_of_line::<3>(self.words.position() - tag.len(), 1);
-        self.channels.add_texture(numbers.as_ref().map_or([0.0; 3], |numbers| numbers.values));
+        self.primvars.add_texture(numbers.as_ref().map_or([0.0; 3], |numbers| numbers.values));
         numbers?.refuse_non_finite()
     }
 
@@ -216,7 +216,7 @@ impl<'a> ObjReader<'a> {
         }
         let num_corners = self.faces.all_corners().len() + self.corners.len();
         room("corners", num_corners, self.limits.corners)?;
-        self.channels.add_corners(self.faces.all_corners().len(), &self.textures);
+        self.primvars.add_corners(self.faces.all_corners().len(), &self.textures);
         self.faces.push(self.corners.iter().copied());
         self.source.face_lines.push(line);
         corners
@@ -233,7 +233,7 @@ impl<'a> ObjReader<'a> {
                 self.forward.push(Forward { line, face: self.faces.len() as u32, at });
             }
             self.corners.push(VertexId(id(corner[0].unwrap_or(0), self.positions.len())));
-            self.textures.push(corner[1].map(|index| id(index, self.channels.num_textures())));
+            self.textures.push(corner[1].map(|index| id(index, self.primvars.num_textures())));
         }
         Ok(())
     }
@@ -241,15 +241,15 @@ impl<'a> ObjReader<'a> {
     /// Whether a number of the corner is of something later.
     fn reaches_forward(&self, corner: &CornerIndices, word: &[u8]) -> Result<bool, Reason> {
         let mut forward = false;
-        for (channel, index, count) in self.numbers(corner) {
+        for (kind, index, count) in self.numbers(corner) {
             let text = || excerpt(word);
             if index == 0 {
-                return Err(Reason::IndexZero { text: text(), channel });
+                return Err(Reason::IndexZero { text: text(), kind });
             }
             if index.unsigned_abs() > count as u64 {
                 if index < 0 {
-                    let index = part(word, channel);
-                    return Err(Reason::IndexBeforeFirst { text: text(), channel, index, count });
+                    let index = part(word, kind);
+                    return Err(Reason::IndexBeforeFirst { text: text(), kind, index, count });
                 }
                 forward = true;
             }
@@ -261,14 +261,14 @@ impl<'a> ObjReader<'a> {
     fn numbers(
         &self,
         corner: &CornerIndices,
-    ) -> impl Iterator<Item = (Channel, i64, usize)> + use<> {
+    ) -> impl Iterator<Item = (IndexKind, i64, usize)> + use<> {
         let [vertex, texture, normal] = *corner;
         let numbers = [
-            (Channel::Vertex, vertex, self.positions.len()),
-            (Channel::Texture, texture, self.channels.num_textures()),
-            (Channel::Normal, normal, self.num_normals),
+            (IndexKind::Vertex, vertex, self.positions.len()),
+            (IndexKind::Texture, texture, self.primvars.num_textures()),
+            (IndexKind::Normal, normal, self.num_normals),
         ];
-        numbers.into_iter().filter_map(|(channel, index, count)| Some((channel, index?, count)))
+        numbers.into_iter().filter_map(|(kind, index, count)| Some((kind, index?, count)))
     }
 
     /// The faults of corners that asked for something later which did not come.
@@ -292,9 +292,9 @@ impl<'a> ObjReader<'a> {
         let word = Words::starting_at(self.bytes, at).next()?;
         let corner = corner(word)?;
         let mut missing = self.numbers(&corner).filter(|&(_, i, count)| i > count as i64);
-        let (channel, _, count) = missing.next()?;
-        let index = part(word, channel);
-        Some(Reason::IndexTooLarge { text: excerpt(word), channel, index, count })
+        let (kind, _, count) = missing.next()?;
+        let index = part(word, kind);
+        Some(Reason::IndexTooLarge { text: excerpt(word), kind, index, count })
     }
 
     /// The faults of tags that asked for something which did not come.
@@ -313,7 +313,7 @@ impl<'a> ObjReader<'a> {
 
     fn into_obj(self) -> Obj {
         let num_corners = self.faces.all_corners().len();
-        let (primvars, remarks) = self.channels.finish(self.positions.len(), num_corners);
+        let (primvars, remarks) = self.primvars.finish(self.positions.len(), num_corners);
         let mesh = Mesh { positions: self.positions, faces: self.faces, tags: self.tags, primvars };
         let Self { source, skipped, unknown, .. } = self;
         Obj { mesh, source, skipped, unknown_tags: unknown.list, remarks }
@@ -396,12 +396,12 @@ fn corner(word: &[u8]) -> Option<CornerIndices> {
     corner[0].is_some().then_some(corner)
 }
 
-/// The number of `channel` in a corner, as it is written.
-fn part(corner: &[u8], channel: Channel) -> String {
-    let place = match channel {
-        Channel::Vertex => 0,
-        Channel::Texture => 1,
-        Channel::Normal => 2,
+/// The number of `kind` in a corner, as it is written.
+fn part(corner: &[u8], kind: IndexKind) -> String {
+    let place = match kind {
+        IndexKind::Vertex => 0,
+        IndexKind::Texture => 1,
+        IndexKind::Normal => 2,
     };
     excerpt(corner.split(|&b| b == b'/').nth(place).unwrap_or_default())
 }
@@ -434,7 +434,7 @@ mod tests {
     const TETRAHEDRON: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n\
         f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-    fn tetrahedron(limits: Limits) -> Result<Obj, ReadError> {
+    fn tetrahedron(limits: Limits) -> Result<Obj, ObjError> {
         read(TETRAHEDRON, limits)
     }
 

@@ -27,11 +27,11 @@ pub(super) fn omitted(mesh: &Mesh) -> Vec<String> {
     let is_kept = |p: &Primvar| kept.iter().flatten().any(|k| std::ptr::eq(*k, p));
     let left_out = mesh.primvars.iter().filter(|p| !is_kept(p));
     left_out
-        .map(|p| format!("OBJ has no place for the channel `{}`: it is left out", p.name))
+        .map(|p| format!("OBJ has no place for the primvar `{}`: it is left out", p.name))
         .collect()
 }
 
-/// The channel for the colours on the lines of vertices.
+/// The primvar for the colours on the lines of vertices.
 fn colors(mesh: &Mesh) -> Option<&Primvar> {
     let fits = |p: &&Primvar| {
         p.interpolation == Interpolation::Vertex
@@ -42,7 +42,7 @@ fn colors(mesh: &Mesh) -> Option<&Primvar> {
     mesh.primvars.iter().find(fits)
 }
 
-/// The channel for texture coordinates: `st` or `uv`, or else the first with two numbers.
+/// The primvar for texture coordinates: `st` or `uv`, or else the first with two numbers.
 fn uvs(mesh: &Mesh) -> Option<&Primvar> {
     let fits = |p: &&Primvar| {
         (1..=3).contains(&p.width) && p.values.len().is_multiple_of(p.width) && has_corners(mesh, p)
@@ -53,7 +53,7 @@ fn uvs(mesh: &Mesh) -> Option<&Primvar> {
     candidates().find(named).or_else(|| candidates().find(unnamed))
 }
 
-/// Whether the channel has a value for every corner of a face.
+/// Whether the primvar has a value for every corner of a face.
 fn has_corners(mesh: &Mesh, primvar: &Primvar) -> bool {
     let num_values = primvar.values.len() / primvar.width;
     match primvar.interpolation {

@@ -2,8 +2,8 @@
 
 use std::io::{BufWriter, Result, Write};
 
-use super::channels::GROUPS;
 use super::header::{Encoding, Scalar};
+use super::primvars::GROUPS;
 use crate::io::digits::Digits;
 use crate::mesh::{Interpolation, Mesh, Primvar, Tags};
 
@@ -27,25 +27,25 @@ pub(super) fn omitted(mesh: &Mesh) -> Vec<String> {
     let is_kept = |p: &&Primvar| {
         plan.uvs
             .iter()
-            .chain(plan.channels.iter().map(|c| &c.primvar))
+            .chain(plan.primvars.iter().map(|c| &c.primvar))
             .any(|k| std::ptr::eq(*k, *p))
     };
-    let channels = mesh.primvars.iter().filter(|p| !is_kept(p));
+    let primvars = mesh.primvars.iter().filter(|p| !is_kept(p));
     let sentence =
-        |p: &Primvar| format!("PLY has no place for the channel `{}`: it is left out", p.name);
-    tags.into_iter().chain(channels.map(sentence)).collect()
+        |p: &Primvar| format!("PLY has no place for the primvar `{}`: it is left out", p.name);
+    tags.into_iter().chain(primvars.map(sentence)).collect()
 }
 
 /// What is written of a mesh.
 struct Plan<'a> {
-    channels: Vec<Channel<'a>>,
+    primvars: Vec<Properties<'a>>,
     uvs: Option<&'a Primvar>,
     /// The types of the numbers of corners, and of texture coordinates of a face.
     counts: [Scalar; 2],
 }
 
-/// A channel of vertices with the names and the type of its properties.
-struct Channel<'a> {
+/// A primvar of vertices with the names and the type of its properties.
+struct Properties<'a> {
     primvar: &'a Primvar,
     names: Vec<String>,
     scalar: Scalar,
@@ -54,27 +54,27 @@ struct Channel<'a> {
 impl<'a> Plan<'a> {
     fn new(mesh: &'a Mesh) -> Self {
         let mut taken: Vec<String> = ["x", "y", "z"].map(str::to_owned).into();
-        let mut channels = Vec::new();
+        let mut primvars = Vec::new();
         for primvar in mesh.primvars.iter().filter(|p| is_of_vertices(mesh, p)) {
             let names = property_names(primvar);
             if names.iter().all(|name| !taken.contains(name)) {
                 taken.extend_from_slice(&names);
-                channels.push(Channel { primvar, names, scalar: scalar_of(primvar) });
+                primvars.push(Properties { primvar, names, scalar: scalar_of(primvar) });
             }
         }
         let uvs = || mesh.primvars.iter().filter(|p| is_of_corners(mesh, p));
         let named = |p: &&Primvar| matches!(p.name.as_str(), "st" | "uv");
         let uvs = uvs().find(named).or_else(|| uvs().next());
-        Self { channels, uvs, counts: [1, 2].map(|each| count_type(mesh, each)) }
+        Self { primvars, uvs, counts: [1, 2].map(|each| count_type(mesh, each)) }
     }
 
     fn write_header(&self, mesh: &Mesh, encoding: Encoding, out: &mut impl Write) -> Result<()> {
         writeln!(out, "ply\nformat {} 1.0", encoding.name())?;
         writeln!(out, "element vertex {}", mesh.positions.len())?;
         writeln!(out, "property double x\nproperty double y\nproperty double z")?;
-        for channel in &self.channels {
-            for name in &channel.names {
-                writeln!(out, "property {} {name}", channel.scalar.name())?;
+        for primvar in &self.primvars {
+            for name in &primvar.names {
+                writeln!(out, "property {} {name}", primvar.scalar.name())?;
             }
         }
         writeln!(out, "element face {}", mesh.faces.len())?;
@@ -88,7 +88,7 @@ impl<'a> Plan<'a> {
     fn write_vertices(&self, mesh: &Mesh, out: &mut Values<impl Write>) -> Result<()> {
         for (v, position) in mesh.positions.iter().enumerate() {
             position.iter().try_for_each(|&x| out.write(Scalar::F64, x))?;
-            for Channel { primvar, scalar, .. } in &self.channels {
+            for Properties { primvar, scalar, .. } in &self.primvars {
                 let width = primvar.width;
                 for &x in &primvar.values[width * v..width * (v + 1)] {
                     out.write(*scalar, if *scalar == Scalar::U8 { byte_of(x) } else { x })?;
@@ -133,12 +133,12 @@ fn is_of_corners(mesh: &Mesh, primvar: &Primvar) -> bool {
         && primvar.indices.iter().all(|&i| (i as usize) < num_values)
 }
 
-/// The names that the reader takes as this channel.
+/// The names that the reader takes as this primvar.
 fn property_names(primvar: &Primvar) -> Vec<String> {
-    let of_channel = |(name, members): &&(&str, &[&str])| {
+    let of_primvar = |(name, members): &&(&str, &[&str])| {
         *name == primvar.name && members.len() == primvar.width
     };
-    if let Some((_, members)) = GROUPS.iter().find(of_channel) {
+    if let Some((_, members)) = GROUPS.iter().find(of_primvar) {
         return members.iter().map(|m| (*m).to_owned()).collect();
     }
     let is_fit = |c: char| c.is_ascii_graphic();

@@ -27,12 +27,12 @@ pub(super) fn omitted(mesh: &Mesh) -> Vec<String> {
     let left_out = mesh.primvars.iter().filter(|p| !kept.iter().any(|k| std::ptr::eq(*k, *p)));
     let sentence = |p: &Primvar| {
         let name = excerpt(p.name.as_bytes());
-        format!("the channel `{name}` is not fit for a primvar of USD: it is left out")
+        format!("the primvar `{name}` is not fit for a primvar of USD: it is left out")
     };
     left_out.map(sentence).collect()
 }
 
-/// The channels that become primvars.
+/// The primvars that become primvars.
 fn kept(mesh: &Mesh) -> impl Iterator<Item = &Primvar> {
     mesh.primvars.iter().enumerate().filter_map(|(k, primvar)| {
         let before = &mesh.primvars[..k];

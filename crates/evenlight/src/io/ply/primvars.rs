@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::header::{Property, word};
 use crate::mesh::{Interpolation, Primvar, VertexId};
 
-/// Properties that are one channel, and its name.
+/// Properties that are one primvar, and its name.
 pub(super) const GROUPS: [(&str, &[&str]); 6] = [
     ("color", &["red", "green", "blue", "alpha"]),
     ("color", &["red", "green", "blue"]),
@@ -15,7 +15,7 @@ pub(super) const GROUPS: [(&str, &[&str]); 6] = [
     ("st", &["texture_u", "texture_v"]),
 ];
 
-/// Puts `columns` of values of vertices into channels and adds them to `primvars`.
+/// Puts `columns` of values of vertices into primvars and adds them to `primvars`.
 pub(super) fn group(
     columns: Vec<(&Property, Vec<f64>)>,
     primvars: &mut Vec<Primvar>,
@@ -37,14 +37,14 @@ pub(super) fn group(
             primvars.push(interleave(name, &taken));
         } else {
             remarks.push(format!(
-                "the channel `{}` has values that are not finite: it is left out",
+                "the primvar `{}` has values that are not finite: it is left out",
                 word(&name)
             ));
         }
     }
 }
 
-/// The channel that a property belongs to, and all its properties.
+/// The primvar that a property belongs to, and all its properties.
 fn group_of(name: &str, columns: &[Option<(&Property, Vec<f64>)>]) -> (String, Vec<String>) {
     let is_there = |name: &str| columns.iter().flatten().any(|(p, _)| p.name == name);
     for (group, members) in GROUPS {
@@ -62,7 +62,7 @@ fn group_of(name: &str, columns: &[Option<(&Property, Vec<f64>)>]) -> (String, V
     (name.to_owned(), vec![name.to_owned()])
 }
 
-/// `name`, or a longer one that no channel has.
+/// `name`, or a longer one that no primvar has.
 fn free_name(mut name: String, primvars: &[Primvar]) -> String {
     while primvars.iter().any(|p| p.name == name) {
         name.push('_');
@@ -71,8 +71,8 @@ fn free_name(mut name: String, primvars: &[Primvar]) -> String {
 }
 
 /// Colours as fractions of full light, anything else as it is.
-fn in_units(property: &Property, channel: &str, mut values: Vec<f64>) -> Vec<f64> {
-    let is_color = channel.trim_end_matches('_') == "color";
+fn in_units(property: &Property, primvar: &str, mut values: Vec<f64>) -> Vec<f64> {
+    let is_color = primvar.trim_end_matches('_') == "color";
     if let Some((_, largest)) = property.scalar.range().filter(|_| is_color) {
         values.iter_mut().for_each(|x| *x /= largest);
     }
@@ -124,7 +124,7 @@ impl CornerValues {
         Ok(())
     }
 
-    /// The channel, if there are corners and they have finite values.
+    /// The primvar, if there are corners and they have finite values.
     pub fn finish(self, remarks: &mut Vec<String>) -> Option<Primvar> {
         let num_corners = self.indices.len();
         if self.num_missing == num_corners {

@@ -1,4 +1,4 @@
-//! The cage of a face-varying channel: the faces of the positions' cage, with vertices of its own.
+//! The cage of a face-varying primvar: the faces of the positions' cage, with vertices of its own.
 //!
 //! Texture coordinates are themselves the control net of a Catmull-Clark surface. Corners of a
 //! vertex are one vertex of that net while no seam lies between them; an edge is a *seam* if its
@@ -14,8 +14,8 @@
 //!                     +--+--+
 //! ```
 //!
-//! What a boundary does is the channel's [`FaceVaryingRule`]: its vertices lie on smooth curves, or
-//! are sharp. Creases and sharp vertices of the cage hold for the channel too.
+//! What a boundary does is the primvar's [`FaceVaryingRule`]: its vertices lie on smooth curves, or
+//! are sharp. Creases and sharp vertices of the cage hold for the primvar too.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,28 +25,28 @@ use super::{
     Tags, Topology, VertexId,
 };
 
-/// The faces of a channel, and the value at each of its vertices.
+/// The faces of a primvar, and the value at each of its vertices.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct ChannelNet {
-    /// The faces of the cage in their order, with the channel's own vertices.
+pub(crate) struct PrimvarNet {
+    /// The faces of the cage in their order, with the primvar's own vertices.
     pub(crate) faces: Faces,
-    /// Creases, corners and holes of the channel.
+    /// Creases, corners and holes of the primvar.
     pub(crate) tags: Tags,
     /// The number of the value at every vertex.
     pub(crate) values: Vec<u32>,
-    /// The semi-sharp edges of the cage at vertices on seams that are not the channel's there.
+    /// The semi-sharp edges of the cage at vertices on seams that are not the primvar's there.
     pub(crate) beyond: BTreeMap<VertexId, Beyond>,
 }
 
-impl ChannelNet {
-    /// The net of a face-varying channel of a cage whose positions have this boundary rule.
+impl PrimvarNet {
+    /// The net of a face-varying primvar of a cage whose positions have this boundary rule.
     pub(crate) fn new(
         topology: &Topology,
         tags: &Tags,
-        channel: &Primvar,
+        primvar: &Primvar,
         boundary: BoundaryRule,
     ) -> Self {
-        let values = &channel.indices[..];
+        let values = &primvar.indices[..];
         let mut splitter = Splitter {
             tags,
             topology,
@@ -126,7 +126,7 @@ struct Splitter<'a> {
 }
 
 impl Splitter<'_> {
-    /// Makes the vertices of the channel at `v`, and says how sharp they are.
+    /// Makes the vertices of the primvar at `v`, and says how sharp they are.
     fn split(&mut self, v: VertexId) {
         if !self.topology.ring(v).any(|h| self.is_seam(h)) {
             return self.keep(v);
@@ -148,7 +148,7 @@ impl Splitter<'_> {
         }
     }
 
-    /// Makes the one vertex of the channel at `v`, where there is neither a seam nor a boundary.
+    /// Makes the one vertex of the primvar at `v`, where there is neither a seam nor a boundary.
     fn keep(&mut self, v: VertexId) {
         let Some(first) = self.topology.ring(v).next() else { return };
         let vertex = VertexId(self.vertices.len() as u32);
@@ -204,7 +204,7 @@ impl Splitter<'_> {
         fans
     }
 
-    /// The sharpness of the channel's vertices at `v`.
+    /// The sharpness of the primvar's vertices at `v`.
     fn fan_sharpness(&self, v: VertexId, fans: &[Fan]) -> Vec<f64> {
         let own = self.vertex_sharpness[v.index()];
         let is_boundary = self.topology.is_boundary(v);
@@ -241,7 +241,7 @@ impl Splitter<'_> {
         matches!(self.rule, FaceVaryingRule::CornersPlus1 | FaceVaryingRule::CornersPlus2)
     }
 
-    /// Whether all vertices of the channel are sharp at a vertex with a seam.
+    /// Whether all vertices of the primvar are sharp at a vertex with a seam.
     fn are_all_sharp(&self, fans: &[Fan], is_boundary: bool) -> bool {
         let values: BTreeSet<u32> = fans.iter().map(|fan| fan.value).collect();
         let plus2 = self.rule == FaceVaryingRule::CornersPlus2;
@@ -274,10 +274,10 @@ impl Splitter<'_> {
         }
     }
 
-    /// The tags of the channel.
+    /// The tags of the primvar.
     fn own_tags(&self) -> Tags {
         let creases = self.topology.half_edges().filter(|&h| {
-            // Once per edge that is none of the channel's boundaries.
+            // Once per edge that is none of the primvar's boundaries.
             let is_first = self.topology.twin(h).is_some_and(|twin| h < twin);
             is_first && self.edge_sharpness[h.index()] > 0.0 && !self.is_seam(h)
         });

@@ -4,7 +4,7 @@ use crate::mesh::{Interpolation, Primvar};
 
 /// What was read so far beside positions and faces.
 #[derive(Debug, Default)]
-pub(super) struct Channels {
+pub(super) struct Primvars {
     /// `vt`; what is missing is 0.
     textures: Vec<[f64; 3]>,
     /// The texture coordinate of every corner so far; empty as long as none has one.
@@ -13,7 +13,7 @@ pub(super) struct Channels {
     colors: Vec<f64>,
 }
 
-impl Channels {
+impl Primvars {
     /// The number of texture coordinates so far.
     pub fn num_textures(&self) -> usize {
         self.textures.len()
