@@ -1,5 +1,6 @@
 //! All pieces of a surface join C2, whatever their kinds and levels: derivatives up to order two
 //! in matched parameters agree across every patch border, except at extraordinary points.
+#![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod common;
 
