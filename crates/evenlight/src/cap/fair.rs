@@ -24,7 +24,7 @@ use crate::scheme::FanLimit;
 pub(crate) struct FairCap {
     lines: Lines,
     inside: PlainCap,
-    /// The length of the tangents of lines across the crease, that of y being 1.
+    /// The length of the tangents of lines across the crease; the length of y is 1.
     across: f64,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct FairCap {
 type Cells<const N: usize> = [Vec<[f64; N]>; 3];
 
 impl FairCap {
-    /// Bi-3 if that is asked for, else bi-4.
+    /// The rules in degree bi-3 if the options ask for it, else bi-4.
     pub(super) fn new(rules: &ValenceRules, limit: &FanLimit, kind: CapKind) -> Self {
         let lines = Lines::of(rules);
         let cells = limit.cells(&rules.subdominant().characteristic_net());
