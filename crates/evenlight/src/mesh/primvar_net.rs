@@ -166,8 +166,8 @@ impl Splitter<'_> {
         self.values[h.index()]
     }
 
-    /// Whether the two faces of the edge of `h` have different values at one of its ends, or the edge
-/// has one face only.
+    /// Whether the two faces of the edge of `h` have different values at one of its ends, or there
+    /// is one face only.
     fn is_seam(&self, h: HalfEdgeId) -> bool {
         let Some(twin) = self.topology.twin(h) else { return true };
         let next = |h| self.topology.next(h);
