@@ -87,8 +87,8 @@ impl HomogeneousGuide {
         (0..=valence / 2).flat_map(of_mode).collect()
     }
 
-    /// The even and the odd guide of a solution. Modes 0 and n/2 are real; there a solution has only
-    /// one guide.
+    /// The even and the odd guide of a solution. Modes 0 and n/2 are real; there a solution has
+    /// only one guide.
     fn of_solution(valence: usize, degree: usize, mode: usize, x: Vec<[f64; 2]>) -> Vec<Self> {
         let vanishes = |part: usize| x.iter().all(|x| x[part] == 0.0);
         let is_real = mode == 0 || 2 * mode == valence;

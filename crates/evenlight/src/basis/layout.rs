@@ -98,8 +98,8 @@ pub(super) struct Layout {
     on_line: Knot,
 }
 
-/// A place of functions in a sector. Index p along u and q along v are 0, 1, 2 for L, M, R; m is the
-/// number inside an edge, 0 .. d-5.
+/// A place of functions in a sector. Index p along u and q along v are 0, 1, 2 for L, M, R; m is
+/// the number inside an edge, 0 .. d-5.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
     /// At the corner on line s-1; q along the sector.
@@ -201,8 +201,8 @@ impl Layout {
         }
     }
 
-    /// A coefficient of a ring as weights of the functions of its own slots; `None` for coefficients
-    /// of the outer border.
+    /// A coefficient of a ring as weights of the functions of its own slots; `None` for
+    /// coefficients of the outer border.
     pub(super) fn coefficient(self, (square, [i, j]): Coefficient) -> Option<Combination> {
         let outer = self.degree + 1 - LAYERS;
         let (is_outer_u, is_outer_v) =

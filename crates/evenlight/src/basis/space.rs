@@ -417,8 +417,8 @@ impl RefinableSpace {
     /// The matrix from the values of functions of V_m to the values of functions of V_(m+1): row k
     /// gives the value of function k of V_(m+1).
     ///
-    /// It is the identity on the border and the rings. The new ring takes its values from the guide.
-    /// The guide shrinks: each eigenfunction is multiplied by its lambda^s.
+    /// It is the identity on the border and the rings. The new ring takes its values from the
+    /// guide. The guide shrinks: each eigenfunction is multiplied by its lambda^s.
     pub fn refinement(&self) -> Stencils {
         let (first, guides) = (self.first_guide(), self.eigenfunctions().len());
         let kept = (0..first).map(|k| vec![(k, 1.0)]);
@@ -471,8 +471,8 @@ impl RefinableSpace {
         Some(values)
     }
 
-    /// The constant 1 as values of the functions: 1 for all functions of the border and the rings and
-    /// for the first guide, else 0.
+    /// The constant 1 as values of the functions: 1 for all functions of the border and the rings
+    /// and for the first guide, else 0.
     pub fn constant(&self) -> Vec<f64> {
         let guide = self.first_guide();
         (0..self.dim()).map(|k| f64::from(u8::from(k <= guide))).collect()

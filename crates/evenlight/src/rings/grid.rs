@@ -80,7 +80,8 @@ impl<const N: usize> Rings<N> {
         }
     }
 
-    /// The lines of a square, sorted by the patches that they cross, in the patches' own parameters.
+    /// The lines of a square, sorted by the patches that they cross, in the patches' own
+    /// parameters.
     fn parts(&self, square: usize, k: usize, lines: &[Line]) -> Vec<Part> {
         let rules = &self.rules.rules;
         let empty = || Part { size: 1.0, lines: Vec::new() };
