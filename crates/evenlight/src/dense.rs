@@ -1,5 +1,5 @@
 //! Small dense linear algebra: Householder QR with column pivoting, least squares under linear
-//! conditions by it, and LU.
+//! conditions (with this QR), and LU.
 //!
 //! Plain loops in a fixed order, so that the results have the same bits everywhere.
 
@@ -159,19 +159,19 @@ fn add_to(sum: &mut [f64], w: f64, row: &[f64]) {
     sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += w * x);
 }
 
-/// A P = Q R, with the columns in the order that brings the largest remaining one to the front.
+/// A P = Q R; each step brings the largest remaining column to the front.
 pub(crate) struct Qr {
     /// The rows of R, `rank` of them, in pivoted order of columns.
     r: Matrix,
-    /// The vectors of the reflections, from their own row on.
+    /// The vectors of the reflections, each from its own row on.
     reflections: Vec<Vec<f64>>,
     /// The column of A at each place.
     order: Vec<usize>,
     rank: usize,
 }
 
-/// Columns shorter than this part of the longest are rounding: conditions here are either
-/// independent with pivots above 1e-4 or repeat others.
+/// A column shorter than this part of the longest is rounding. For each condition here either is
+/// independent, with a pivot above 1e-4, or repeats another one.
 const DEPENDENT: f64 = 1e-10;
 
 impl Qr {
@@ -225,8 +225,8 @@ impl Qr {
         x
     }
 
-    /// Of the conditions A^T x = b, A having as many rows as x: the x of least length, if they do
-    /// not contradict each other, and a basis of all x with A^T x = 0, as columns.
+    /// Solves the conditions A^T x = b, where A has as many rows as x. Gives the shortest x, if the
+    /// conditions do not contradict each other, and a basis of all x with A^T x = 0, as columns.
     pub(crate) fn solutions(&self, rows: usize, b: &Matrix) -> (Matrix, Matrix) {
         // R^T y = P^T b from the top down; later rows of b repeat earlier ones.
         let mut y = Matrix::zeros(rows, b.columns);
@@ -270,7 +270,7 @@ fn swap_columns(a: &mut Matrix, j: usize, k: usize) {
     }
 }
 
-/// v of length sqrt 2 such that x - v (v x) has zeros behind its first entry; zero if it has them.
+/// v of length sqrt 2 such that x - v (v x) has zeros behind its first entry; v = 0 if x has them.
 fn reflection(x: &[f64]) -> Vec<f64> {
     let size = x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut v = x.to_vec();

@@ -1,9 +1,9 @@
-//! The names of choices, as commands and files have them: one list for each, from which writing,
-//! reading and the message about an unknown name follow.
+//! The names of choices in commands and files. Each choice has one list of names; writing, reading
+//! and the message about an unknown name follow from it.
 
 use std::fmt;
 
-/// A text that is the name of no choice.
+/// A text that names none of the choices.
 ///
 /// ```
 /// use evenlight::SchemeKind;
@@ -26,7 +26,7 @@ impl UnknownName {
         Self { what, given: given.to_owned(), names }
     }
 
-    /// The names that there are.
+    /// The names that are allowed.
     pub fn names(&self) -> &'static [&'static str] {
         self.names
     }

@@ -3,7 +3,7 @@
 //! A point is a plain array, so that callers need no type of ours and coordinates can be
 //! handed over without a copy. All operations round like the formula that is written.
 //!
-//! What is linear works on `[f64; N]`: positions have three numbers, primvars one to four.
+//! Linear operations work on `[f64; N]`: positions have three numbers, primvars one to four.
 
 /// A point in space, in the units of the input mesh.
 pub type Point = [f64; 3];
@@ -74,7 +74,7 @@ pub fn unit(a: Vector) -> Vector {
     scale(1.0 / norm(b), b)
 }
 
-/// The first three numbers of `a`; those that it does not have are zero.
+/// The first three numbers of `a`; if `a` has fewer, the others are zero.
 #[inline]
 pub(crate) fn in_space<const N: usize>(a: [f64; N]) -> Vector {
     let mut r = [0.0; 3];

@@ -1,5 +1,5 @@
 //! Gauss's quadrature on [0,1]: the integral of f is about the sum of w f(x) over nodes x with
-//! weights w; of a polynomial it is exact up to degree 2n - 1, n being the number of nodes.
+//! weights w. With n nodes it is exact for polynomials up to degree 2n - 1.
 //!
 //! The nodes are the zeros of the Legendre polynomial P_n, moved from [-1,1] to [0,1]; the tests
 //! compute them.

@@ -6,8 +6,8 @@
 //! ```text
 //!  b ^
 //!  1 +-------+---+---+   ring l = 0, 1, 2, ... covers 2^-(l+1) < max(a,b) <= 2^-l
-//!    |       |       |   with three patches or more; with another contraction than
-//!    |       | ring 0|   Catmull-Clark's there is some sigma in the place of 1/2
+//!    |       |       |   with three patches or more; for contractions other than
+//!    |       | ring 0|   Catmull-Clark's some sigma takes the place of 1/2
 //! .5 +---+---+       +
 //!    | r 1   |       |
 //!    +-+-+   |       |
@@ -26,8 +26,8 @@
 //! ```
 //!
 //! X, Y, Z stay of the same size for ever, the factors cancel in the curvatures, and ring 1000 is
-//! as exact as ring 1. The one thing to guard is that rounding must not bring the part that
-//! shrinks by lambda back into Z: it is removed in every step.
+//! as exact as ring 1. Only one thing needs care: rounding brings a part that shrinks by lambda
+//! into Z. Every step removes it.
 //!
 //! Primvars of N numbers have the same rings. Their first three numbers are taken as a point in
 //! space; a fourth has no frame and shrinks by lambda.
@@ -51,8 +51,8 @@ use crate::scheme::{
 };
 use frame::{Frame, HEIGHT, RingScale, frame_shape};
 
-/// The rules of a scheme at one valence with their eigenstructure, shared by all points of that
-/// valence.
+/// The rules of a scheme at one valence with their eigenstructure. All points of that valence
+/// share them.
 #[derive(Clone, Debug)]
 pub(crate) struct ValenceRules {
     family: Family,
@@ -97,7 +97,7 @@ impl ValenceRules {
         matches!(self.family, Family::FairFan(_))
     }
 
-    /// The limit of a fan between sharp edges.
+    /// The limit point and tangent plane of a fan between sharp edges.
     pub(crate) fn fan_limit(&self) -> Option<&FanLimit> {
         match &self.family {
             Family::Scheme(_) => None,
@@ -105,7 +105,7 @@ impl ValenceRules {
         }
     }
 
-    /// The scheme; fans have Catmull-Clark's place.
+    /// The scheme; fans count as Catmull-Clark.
     pub(crate) fn kind(&self) -> SchemeKind {
         match self.family {
             Family::Scheme(kind) => kind,
@@ -117,7 +117,7 @@ impl ValenceRules {
         &self.rules
     }
 
-    /// The weights of all rows: what the rules take in memory.
+    /// The number of weights in all rows, a measure of the memory that the rules take.
     pub(crate) fn num_weights(&self) -> usize {
         let rules = &self.rules;
         let patches = rules.patches.iter().flat_map(|rule| rule.old.iter().chain(&rule.new));
@@ -156,12 +156,12 @@ pub struct Rings<const N: usize = 3> {
     cached: [OnceLock<Box<Ring<N>>>; CACHED_RINGS],
 }
 
-/// The rings that can be asked for by their numbers, from 0. A later one is smaller than the least
-/// `f64`, whatever the contraction.
+/// Rings can be asked for by the numbers from 0 up to this one, excluded. A later ring is smaller
+/// than the least `f64`, whatever the contraction.
 pub const MAX_RINGS: usize = 4096;
 
-/// Rings that are kept once they were asked for. A parameter closer to the centre than
-/// 2^-64 (sigma^64) is made of the last of them anew, in time proportional to its depth.
+/// This many rings are kept once they were asked for. Deeper rings, closer to the centre than
+/// 2^-64 (sigma^64), are made anew from the last kept ring, in time proportional to the depth.
 pub(crate) const CACHED_RINGS: usize = 64;
 
 /// The BB coefficients of patches, one after the other.
@@ -291,8 +291,8 @@ impl<const N: usize> Rings<N> {
         Self { rules, center, normal, quadratic, frame, first, cached }
     }
 
-    /// The rings of a net relative to its limit point, whose coordinates are N numbers that have
-    /// nothing to do with each other: in no tangent plane, so that all shrink by lambda.
+    /// The rings of a net relative to its limit point, whose coordinates are N independent numbers.
+    /// There is no tangent plane, so all numbers shrink by lambda.
     pub(crate) fn over_numbers(first: Vec<[f64; N]>, rules: Arc<ValenceRules>) -> Self {
         let frame = Frame::WORLD;
         let cached = [const { OnceLock::new() }; CACHED_RINGS];
@@ -300,7 +300,7 @@ impl<const N: usize> Rings<N> {
         Self { rules, center, normal, quadratic: None, frame, first, cached }
     }
 
-    /// The number of sectors: the valence, or of a fan the number of its faces.
+    /// The number of sectors: the valence, or for a fan the number of its faces.
     pub fn valence(&self) -> usize {
         self.rules.rules.valence
     }
@@ -310,8 +310,8 @@ impl<const N: usize> Rings<N> {
         self.rules.subdominant.lambda
     }
 
-    /// The factor by which the parameters of the rings shrink: 1/2 but for contractions other than
-    /// Catmull-Clark's.
+    /// The factor by which the parameters of the rings shrink: 1/2 with Catmull-Clark's
+    /// contraction, else sigma.
     pub fn sigma(&self) -> f64 {
         self.rules.rules.sigma()
     }
@@ -326,8 +326,8 @@ impl<const N: usize> Rings<N> {
         self.quadratic.as_ref()
     }
 
-    /// The unit normal at the limit point; NaN if there is no tangent plane (of primvars, that of
-    /// their first three numbers).
+    /// The unit normal at the limit point; NaN if there is no tangent plane. For primvars it is the
+    /// normal of their first three numbers.
     pub fn normal(&self) -> Vector {
         self.normal
     }
@@ -342,7 +342,7 @@ impl<const N: usize> Rings<N> {
     /// such patch.
     ///
     /// With s = sigma patches lie in three squares, \[s,1\] x \[s,1\], \[s,1\] x \[0,s\] and
-    /// \[0,s\] x \[s,1\], one in each, 2 x 2 or 3 x 3, the index along b fastest.
+    /// \[0,s\] x \[s,1\]. Each square has one patch, 2 x 2 or 3 x 3; the index along b is fastest.
     pub fn patch_domain(&self, which: usize) -> Option<[[f64; 2]; 2]> {
         (which < self.patches_per_sector()).then(|| self.rules.rules.patch_domain(which))
     }
@@ -364,7 +364,7 @@ impl<const N: usize> Rings<N> {
         ring < MAX_RINGS && s < self.valence() && which < self.patches_per_sector()
     }
 
-    /// The patch that there is.
+    /// [`Rings::patch`] for a patch that is known to exist.
     pub(crate) fn patch_at(&self, ring: usize, s: usize, which: usize) -> Patch<N> {
         self.with_ring(ring, |net, r| {
             let mut coefs = self.coefs(net, r, s, which);
@@ -373,7 +373,7 @@ impl<const N: usize> Rings<N> {
         })
     }
 
-    /// [`Rings::eval`] of what is wanted alone, in a sector that there is.
+    /// [`Rings::eval`] for any [`Answer`], in a sector that is known to exist.
     #[inline]
     pub(crate) fn eval_as<A: Answer<N>>(&self, s: usize, a: f64, b: f64) -> A {
         debug_assert!(s < self.valence() && (0.0..=1.0).contains(&a) && (0.0..=1.0).contains(&b));
@@ -385,7 +385,7 @@ impl<const N: usize> Rings<N> {
         self.eval_in_patch(ring, s, place)
     }
 
-    /// [`Rings::eval_on`] of what is wanted alone, of a patch that there is.
+    /// [`Rings::eval_on`] for any [`Answer`], on a patch that is known to exist.
     pub(crate) fn eval_on_as<A: Answer<N>>(
         &self,
         ring: usize,
@@ -399,8 +399,8 @@ impl<const N: usize> Rings<N> {
         self.eval_in_patch(ring, s, PatchParameters { which, at, size })
     }
 
-    /// Parameters of a sector as those of the hole in front of ring `ring`, the hole being the unit
-    /// square.
+    /// Turns parameters of a sector into parameters of the hole in front of ring `ring`, where the
+    /// hole is the unit square.
     pub(crate) fn in_hole(&self, ring: usize, at: [f64; 2]) -> [f64; 2] {
         at.map(|x| scaled_up(x, ring, self.sigma()))
     }
@@ -465,11 +465,11 @@ impl<const N: usize> Rings<N> {
         })
     }
 
-    /// K and H at the limit point: those of q or of the guide, in schemes that have one and where
-    /// there is a tangent plane. In the others curvature has no limit (it grows, or oscillates,
-    /// from ring to ring).
+    /// K and H at the limit point: the curvatures of q or of the guide, if the scheme has one and
+    /// there is a tangent plane. Otherwise curvature has no limit (it grows, or oscillates, from
+    /// ring to ring).
     ///
-    /// With `guided6` curvature is continuous: these are its limits. With the others it varies
+    /// With `guided6` curvature is continuous: these are its limits. With other schemes it varies
     /// with the direction around the centre, within a band around these values that does not
     /// shrink: bounded curvature is not continuous curvature.
     pub fn center_curvature(&self) -> Option<(f64, f64)> {
@@ -494,12 +494,12 @@ impl<const N: usize> Rings<N> {
         &self.rules
     }
 
-    /// The net in front of ring `ring`, in the frame and scaled as that ring.
+    /// The net in front of ring `ring`, in the frame and scaled like that ring.
     pub(crate) fn net(&self, ring: usize) -> Vec<[f64; N]> {
         self.with_ring(ring, |net, _| net.to_vec())
     }
 
-    /// All patches of ring `ring` in the frame, scaled as that ring.
+    /// All patches of ring `ring` in the frame, scaled like that ring.
     pub(crate) fn frame_patches(&self, ring: usize) -> Vec<Patch<N>> {
         let all = |net: &[[f64; N]], r: &Ring<N>| {
             let per_sector = self.patches_per_sector();
@@ -522,8 +522,8 @@ impl<const N: usize> Rings<N> {
         self.rules.rules.patch_of_scaled(s, which, net, next)
     }
 
-    /// A jet of ring `ring` in patch parameters and frame coordinates, as a point of the surface
-    /// in (a,b); the patch is so large in ring 0.
+    /// Turns a jet of ring `ring` in patch parameters and frame coordinates into a point of the
+    /// surface in (a,b). The size is the size of the patch in ring 0.
     pub(crate) fn in_world<A: Answer<N>>(&self, ring: usize, size: [f64; 2], jet: &Jet<N>) -> A {
         self.placed(&self.ring_scale(ring), size, jet)
     }
@@ -584,7 +584,7 @@ impl<const N: usize> Rings<N> {
         f(&net, &self.ring_from(ring, &net))
     }
 
-    /// The net in front of a ring that is kept.
+    /// The net in front of a kept ring.
     fn net_in_front(&self, ring: usize) -> &[[f64; N]] {
         if ring == 0 { &self.first } else { &self.cached_ring(ring - 1).next }
     }

@@ -33,11 +33,11 @@ pub struct Stencils {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there must be {expected} {what}, not {found}")]
 pub struct LengthError {
-    /// What there should be so many of.
+    /// What the slice holds.
     pub what: &'static str,
-    /// How many there should be.
+    /// How many it must hold.
     pub expected: usize,
-    /// How many there are.
+    /// How many it holds.
     pub found: usize,
 }
 
@@ -104,23 +104,23 @@ impl Stencils {
         Some(all)
     }
 
-    /// The number of rows: of results.
+    /// The number of rows, which is the number of results.
     pub fn num_rows(&self) -> usize {
         self.offsets.len() - 1
     }
 
-    /// The number of columns: of values that the weights are of.
+    /// The number of columns, which is the number of values.
     pub fn num_columns(&self) -> usize {
         self.num_columns
     }
 
-    /// The number of weights that are kept.
+    /// The number of stored weights.
     pub fn num_entries(&self) -> usize {
         self.weights.len()
     }
 
-    /// Where each row begins among [`Stencils::indices`] and [`Stencils::weights`], and their
-    /// number.
+    /// Where each row begins in [`Stencils::indices`] and [`Stencils::weights`]; the last entry is
+    /// their length.
     pub fn offsets(&self) -> &[u32] {
         &self.offsets
     }
@@ -150,7 +150,7 @@ impl Stencils {
         })
     }
 
-    /// The columns and weights of a row that there is.
+    /// The columns and weights of a row; the row must exist.
     #[inline]
     pub(crate) fn entries(&self, row: usize) -> impl Iterator<Item = (u32, f64)> + '_ {
         let entries = self.offsets[row] as usize..self.offsets[row + 1] as usize;
@@ -261,7 +261,7 @@ impl Stencils {
     }
 }
 
-/// So many rows are worth a thread.
+/// The number of rows that is worth a thread.
 const ROWS_OF_A_TASK: usize = 1 << 12;
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
-//! How work is done: on how many threads, and watched by whom.
+//! How the library works: on how many threads, and who watches.
 //!
-//! Long work of this library, on whatever it is done, takes both from the [`Task`] in which it
-//! runs:
+//! All long work of this library takes both from the [`Task`] in which it runs:
 //!
 //! ```text
 //!   Task::new().threads(2).watch(bar).run(|| tessellate(&surface, 16))
@@ -21,7 +20,7 @@ use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// How far work has come.
+/// How much of the work is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
@@ -33,7 +32,7 @@ pub struct Progress {
     pub total: usize,
 }
 
-/// The work was stopped by who watched it ([`Task::watch`]).
+/// The function that watched the work stopped it ([`Task::watch`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the work was cancelled")]
 pub struct Cancelled;
@@ -64,12 +63,12 @@ pub struct Task {
 }
 
 impl Task {
-    /// Work as in the task around, or if there is none on all threads and watched by nobody.
+    /// The settings of the task around this one. Without one: all threads, and nobody watches.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// At most so many threads; 0 for one per core. Without the feature `parallel` there is one.
+    /// At most this many threads; 0 for one per core. Without the feature `parallel` there is one.
     #[must_use]
     pub fn threads(self, count: usize) -> Self {
         let count = if cfg!(feature = "parallel") { count } else { 1 };
@@ -124,7 +123,7 @@ impl Context {
         own.unwrap_or_else(|| Self { threads: all_threads(), watch: None })
     }
 
-    /// Does `work` under this context; the one before comes back, whatever happens.
+    /// Does `work` under this context; afterwards the context before is set again, in any case.
     fn during<T>(self, work: impl FnOnce() -> T) -> T {
         struct Restore(Option<Context>);
         impl Drop for Restore {
@@ -179,7 +178,7 @@ impl Steps {
 
 /// `[f(0), f(1), .., f(len - 1)]`.
 pub(crate) fn map_indexed<T: Send>(len: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    /// So many parts for a thread: enough that none waits long for the last.
+    /// The number of parts for each thread: enough that no thread waits long for the last.
     const PARTS: usize = 8;
     let threads = Context::current().threads.get();
     let part = len.div_ceil(PARTS * threads).max(1);

@@ -1,4 +1,4 @@
-//! Eigenfunctions: what guided subdivision multiplies by a power of lambda in every ring.
+//! Eigenfunctions: guided subdivision multiplies each by a power of lambda in every ring.
 
 use std::sync::OnceLock;
 
@@ -18,11 +18,11 @@ use crate::scheme::{Contraction, Rules, SchemeKind, guide_monomials};
 ///   f(a/2, b/2) = lambda^s f(a,b),    in each sector.
 /// ```
 ///
-/// (With other contractions than Catmull-Clark's sigma takes the place of 1/2.) So all rings are
-/// known from the first one. They are C2 everywhere but at the centre. Every guided surface is a
-/// sum of eigenfunctions from ring 1 on (ring 0 has the border of the surrounding surface instead
-/// of theirs). Function 0 is the constant 1, functions 1 and 2 are the characteristic map, the even
-/// one along the diagonal of sector 0.
+/// (For contractions other than Catmull-Clark's sigma takes the place of 1/2.) So all rings follow
+/// from the first one. The functions are C2 everywhere except at the centre. From ring 1 on every
+/// guided surface is a sum of eigenfunctions; ring 0 has the border of the surrounding surface.
+/// Function 0 is the constant 1. Functions 1 and 2 are the characteristic map; the even one is
+/// along the diagonal of sector 0.
 ///
 /// ```
 /// use evenlight::SchemeKind;
@@ -53,8 +53,8 @@ impl Eigenfunctions {
         Self::with_contraction(kind, Contraction::CatmullClark, valence)
     }
 
-    /// Those of another contraction: lambda is another, and sigma in the place of 1/2. `None` also
-    /// if the scheme has no such contraction.
+    /// The eigenfunctions of another contraction, with its lambda, and with sigma in the place of
+    /// 1/2. `None` also if the scheme has no such contraction.
     pub fn with_contraction(
         kind: SchemeKind,
         contraction: Contraction,
@@ -79,8 +79,8 @@ impl Eigenfunctions {
         self.lambda
     }
 
-    /// The factor by which the parameters of the rings shrink: 1/2 but for contractions other than
-    /// Catmull-Clark's.
+    /// The factor by which the parameters of the rings shrink: 1/2 with Catmull-Clark's
+    /// contraction, else sigma.
     pub fn sigma(&self) -> f64 {
         self.rules.sigma()
     }
@@ -90,13 +90,13 @@ impl Eigenfunctions {
         self.guides.len()
     }
 
-    /// False: there is always the constant.
+    /// Always false, since the constant is a function.
     pub fn is_empty(&self) -> bool {
         self.guides.is_empty()
     }
 
     /// The guide that function `k` follows: its degree s, mode and parity. `None` if `k` is not
-    /// below [`Eigenfunctions::len`]; so do all methods that take a `k`.
+    /// below [`Eigenfunctions::len`], as in all methods that take a `k`.
     pub fn guide(&self, k: usize) -> Option<&HomogeneousGuide> {
         self.guides.get(k)
     }
@@ -117,12 +117,12 @@ impl Eigenfunctions {
         (k < self.len()).then(|| self.eigenvalue_of(k))
     }
 
-    /// The eigenvalue of a function that there is.
+    /// The eigenvalue of a function that is known to exist.
     pub(super) fn eigenvalue_of(&self, k: usize) -> f64 {
         power(self.lambda, self.guides[k].degree())
     }
 
-    /// What a function is multiplied by from ring 0 to ring `ring`.
+    /// The factor of a function from ring 0 to ring `ring`.
     fn factor(&self, k: usize, ring: usize) -> f64 {
         power(self.eigenvalue_of(k), ring)
     }
@@ -144,7 +144,7 @@ impl Eigenfunctions {
         (which < self.patches_per_sector()).then(|| self.domain(which))
     }
 
-    /// [`Eigenfunctions::patch_domain`] of a patch that there is.
+    /// [`Eigenfunctions::patch_domain`] of a patch that is known to exist.
     pub(super) fn domain(&self, which: usize) -> [[f64; 2]; 2] {
         self.rules.patch_domain(which)
     }
@@ -161,7 +161,7 @@ impl Eigenfunctions {
         ring < MAX_RINGS && sector < self.valence() && which < self.patches_per_sector()
     }
 
-    /// The BB coefficients of a function on a patch that there is.
+    /// The BB coefficients of a function on a patch that is known to exist.
     pub(crate) fn coefs_on(&self, k: usize, ring: usize, sector: usize, which: usize) -> Vec<f64> {
         let factor = self.factor(k, ring);
         self.first_ring(k, sector, which).iter().map(|c| factor * c).collect()
@@ -176,7 +176,7 @@ impl Eigenfunctions {
     }
 
     /// Value and derivatives by a and b of function `k` at (a,b) of sector `sector`. At the centre
-    /// (0,0) there is only the value, the derivatives are NaN, but for the constant. `None` if
+    /// (0,0) derivatives exist for the constant only; for other functions they are NaN. `None` if
     /// there is no such function or sector, or a, b are not from 0 to 1.
     pub fn eval(&self, k: usize, sector: usize, a: f64, b: f64) -> Option<Jet<1>> {
         let is_inside = [a, b].iter().all(|x| (0.0..=1.0).contains(x));
@@ -214,13 +214,13 @@ impl Eigenfunctions {
         Some(jet.scaled(self.factor(k, ring), size.map(|size| speed / size)))
     }
 
-    /// The patch of the outermost ring that has (a,b).
+    /// The patch of the outermost ring that contains (a,b).
     pub(super) fn patch_at(&self, place: [f64; 2]) -> usize {
         self.rules.patch_at(place)
     }
 
-    /// Coefficient number `at` of a patch of sector 0 as weights of nodes; of those next to the
-    /// outer border all are nodes of the border.
+    /// Coefficient number `at` of a patch of sector 0 as weights of nodes. Coefficients next to the
+    /// outer border depend on nodes of the border only.
     pub(super) fn border_row(&self, which: usize, at: usize) -> &[(usize, f64)] {
         &self.rules.patches[which].old[at]
     }
@@ -239,8 +239,8 @@ impl Eigenfunctions {
         (limit[0], net.into_flattened())
     }
 
-    /// The nodes of function `k` in front of ring 0. For the constant, which nets leave out, all
-    /// are zero.
+    /// The nodes of function `k` in front of ring 0. For the constant all are zero, as nets are
+    /// relative to the limit point.
     pub(super) fn net(&self, k: usize) -> Vec<[f64; 1]> {
         let (rules, guide) = (&self.rules, &self.guides[k]);
         let monomials = guide_monomials();
@@ -251,7 +251,7 @@ impl Eigenfunctions {
             let coef = |&(i, j): &(usize, usize)| [guide.coefficient(sector, i, j)];
             net.extend(monomials.iter().map(coef));
         }
-        // The guide decides on the border of the next ring: the eigenvector has it already.
+        // The guide determines the border of the next ring, which the eigenvector has already.
         let next = rules.refine(&net);
         let eigenvalue = self.eigenvalue_of(k);
         let border_nodes = (0..net.len()).filter(|at| at % rules.nodes_per_sector < border);

@@ -1,16 +1,16 @@
 //! The homogeneous G2 guides: the eigenvectors of guided subdivision, mode by mode.
 //!
 //! A guide is n polynomial pieces, in sector s sum a_ij u^i v^j with i, j <= 5, u along line s-1
-//! and v along line s, that join with continuous curvature \[KP18-Guided, eq. 1 and 2\]. With a of
-//! the sector ahead of a line and b of the one behind, its arguments exchanged, and
-//! c = cos(2 pi / n), on every line
+//! and v along line s, that join with continuous curvature \[KP18-Guided, eq. 1 and 2\]. Let a be
+//! the piece ahead of a line, b the piece behind it with its arguments exchanged, and
+//! c = cos(2 pi / n). Then on every line
 //!
 //! ```text
 //!   a = b,    a_v + b_v = 2c a_u,    b_vv - a_vv + 4c a_uv - 4c^2 a_uu = 0.
 //! ```
 //!
-//! The conditions know angles only, so they hold for every part of degree i + j = s by itself, and
-//! shrinking by lambda multiplies that part by lambda^s: its solutions are the eigenspace.
+//! The conditions depend on angles only, so they hold for every part of degree i + j = s by itself.
+//! Shrinking by lambda multiplies that part by lambda^s: its solutions are the eigenspace.
 //!
 //! **Modes.** The conditions commute with turning by a sector and with the mirror in the diagonal
 //! of sector 0. So the solutions are spanned by, for m = 0 .. n/2, omega = exp(2 pi i / n),
@@ -20,8 +20,8 @@
 //!                    = Im(omega^(m s) x_ij)    odd,              x_ji = conjugate of x_ij,
 //! ```
 //!
-//! and with alpha = pi m / n, w_r = e^(i alpha) x_(s-r)r the three conditions are one real equation
-//! each, of which those exist whose terms are of bi-degree 5:
+//! With alpha = pi m / n, w_r = e^(i alpha) x_(s-r)r each of the three conditions is one real
+//! equation. It exists for the s for which its terms have bi-degree 5:
 //!
 //! ```text
 //!   Im w_0 = 0                 s <= 5
@@ -72,8 +72,8 @@ pub struct HomogeneousGuide {
 impl HomogeneousGuide {
     /// All homogeneous guides of total degree `degree`, 0 to [`MAX_TOTAL_DEGREE`], at valence n = 3
     /// or n >= 5: mode by mode, an even one before its odd partner. They are orthogonal in the
-    /// sum over all sectors of a_ij b_ij; the largest modulus of an x_ij is 1. There is none of a
-    /// higher degree. `None` if the valence is not from 3 to 1024.
+    /// sum over all sectors of a_ij b_ij; the largest modulus of an x_ij is 1. For higher degrees
+    /// the list is empty. `None` if the valence is not from 3 to 1024.
     pub fn all(valence: usize, degree: usize) -> Option<Vec<Self>> {
         (3..=MAX_VALENCE).contains(&valence).then(|| Self::all_of(valence, degree))
     }
@@ -87,8 +87,8 @@ impl HomogeneousGuide {
         (0..=valence / 2).flat_map(of_mode).collect()
     }
 
-    /// The even and the odd guide of a solution; modes 0 and n/2 are real, and a solution has only
-    /// one.
+    /// The even and the odd guide of a solution. Modes 0 and n/2 are real; there a solution has
+    /// only one guide.
     fn of_solution(valence: usize, degree: usize, mode: usize, x: Vec<[f64; 2]>) -> Vec<Self> {
         let vanishes = |part: usize| x.iter().all(|x| x[part] == 0.0);
         let is_real = mode == 0 || 2 * mode == valence;

@@ -1,8 +1,8 @@
 //! Functions on a guided surface around one extraordinary point.
 //!
-//! A guided scheme is known by its guides: n polynomial pieces g that join with curvature
-//! continuity. This module has the functions that follow from that, for interpolation, analysis and
-//! pictures:
+//! Guides determine a guided scheme: n polynomial pieces g that join with curvature
+//! continuity. This module has the functions that follow from them, for interpolation, analysis
+//! and pictures:
 //!
 //! - [`HomogeneousGuide`]: guides of one degree s, the eigenvectors, with their number
 //!   ([`multiplicity`]), found by solving the conditions of curvature continuity;

@@ -9,12 +9,13 @@
 //!   p_d = q_0 = (1-t)^2 L + 2 t (1-t) M + t^2 R:
 //! ```
 //!
-//! C2 whatever L, M, R are, 1 if they are 1, and not negative unless one of them is. Here knots of
-//! rings are at sigma of \[0,1\], those on the lines between sectors, of equal segments, at 1/2.
+//! The spline is C2 whatever L, M, R are, 1 if they are 1, and not negative unless one of them is.
+//! Knots inside a sector are at sigma of \[0,1\]. On lines between sectors the two segments are
+//! equal, so the share t is 1/2.
 //!
-//! Functions are tensor products of these. The corners, of which every ring has two for each sector
-//! at its hole, have nine; the ring beyond a corner and the one before it share them. In degree 6
-//! edges have three and squares one:
+//! Functions are tensor products of these B-splines. Every ring has two corners for each sector at
+//! its hole. A corner has nine functions, which the ring before it and the ring beyond it share. In
+//! degree 6 each edge has three functions and each square has one:
 //!
 //! ```text
 //!   v
@@ -29,15 +30,15 @@
 //!     +---------------o-------e'------.  u, line s-1
 //! ```
 //!
-//! The outer border of a ring, its three outer layers, has the functions of the level before:
-//! those of level 0 are the border of the whole.
+//! The outer border of a ring, its three outer layers, has the functions of the level before. The
+//! functions of level 0 are the outer border of ring 0.
 
 use crate::pairs::pairs;
 
 /// Weights of functions, numbered by [`Slots::slot`].
 pub(super) type Combination = Vec<(usize, f64)>;
 
-/// Coefficients of a patch next to a side that a knot decides on.
+/// The number of coefficients next to a side that the knot there determines.
 pub(super) const LAYERS: usize = 3;
 
 /// The square \[s,1\] x \[s,1\] of a ring.
@@ -99,8 +100,8 @@ pub(super) struct Slots {
     on_line: Knot,
 }
 
-/// A place of functions in a sector: index p, 0 to 2 for L, M, R along u, q along v, m inside an
-/// edge, 0 .. d-5.
+/// A place of functions in a sector. Index p along u and q along v are 0, 1, 2 for L, M, R; m is
+/// the number inside an edge, 0 .. d-5.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SlotPlace {
     /// At the corner on line s-1; q along the sector.
@@ -122,27 +123,28 @@ enum SlotPlace {
 }
 
 impl Slots {
-    /// The layout of rings of bi-`degree` 5 or 6 whose hole is sigma wide.
+    /// The layout of rings of bi-`degree` 5 or 6, with a hole of width sigma.
     pub(super) fn new(degree: usize, sigma: f64) -> Self {
         Self { degree, at_sigma: Knot(sigma), on_line: Knot(0.5) }
     }
 
-    /// The inner coefficients of a segment that no knot decides on, 0 or 1.
+    /// The number of inner coefficients of a segment that no knot determines, 0 or 1.
     fn inner(self) -> usize {
         self.degree - 5
     }
 
-    /// The functions of a level in one sector: 18 or 24.
+    /// The number of functions of a level in one sector: 18 or 24.
     pub(super) fn of_level(self) -> usize {
         18 + 6 * self.inner()
     }
 
-    /// The functions of the ring itself in one sector: 0 or 12.
+    /// The number of functions of the ring itself in one sector: 0 or 12.
     pub(super) fn of_ring(self) -> usize {
         9 * self.inner() + 3 * self.inner() * self.inner()
     }
 
-    /// The slots of one sector; those of the level come first. The slots of the next sector follow.
+    /// The number of slots of one sector. The slots of the level come first, then the slots of the
+    /// ring itself; the slots of the next sector follow.
     pub(super) fn slots(self) -> usize {
         self.of_level() + self.of_ring()
     }
@@ -163,14 +165,14 @@ impl Slots {
         }
     }
 
-    /// Whether slot `slot` of a sector is seen by the sector before it, too.
+    /// Whether the sector before also uses slot `slot` of a sector.
     pub(super) fn is_on_line(self, slot: usize) -> bool {
         let local = self.of_level();
         slot < 9 || (local..local + 3 * self.inner()).contains(&slot)
     }
 
-    /// Products of weights along u and v at a corner; at that on the next line, where the corner's
-    /// own first direction is v and its second one -u, in its names.
+    /// Products of weights along u and v at a corner. The corner on the next line has its own
+    /// names: its first direction is v and its second one -u.
     fn product(self, corner: SlotCorner, u: [f64; 3], v: [f64; 3]) -> Combination {
         let pairs = pairs(3, 3);
         let slot = |p, q| match corner {
@@ -201,8 +203,8 @@ impl Slots {
         }
     }
 
-    /// A coefficient of a ring on the functions of its own slots; `None` for those of the outer
-    /// border.
+    /// A coefficient of a ring as weights of the functions of its own slots; `None` for
+    /// coefficients of the outer border.
     pub(super) fn coefficient(self, (square, [i, j]): Coefficient) -> Option<Combination> {
         let outer = self.degree + 1 - LAYERS;
         let (is_outer_u, is_outer_v) =
@@ -221,7 +223,7 @@ impl Slots {
         })
     }
 
-    /// A coefficient that no function of a level enters.
+    /// A coefficient that does not depend on the functions of a level.
     fn of_own_ring(self, square: usize, [i, j]: [usize; 2]) -> Combination {
         let last = self.degree + 1 - LAYERS;
         let is_inner = |k: usize| (LAYERS..last).contains(&k);
@@ -321,7 +323,7 @@ impl Slots {
     }
 }
 
-/// A corner of the hole that a sector sees.
+/// A corner of the hole that a sector uses.
 #[derive(Clone, Copy, Debug)]
 enum SlotCorner {
     Line,

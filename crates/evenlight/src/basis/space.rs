@@ -20,9 +20,9 @@ use crate::sparse::Stencils;
 ///   18n       18n        18n             18n       |  17n + n* + 6: a guide, subdivided
 /// ```
 ///
-/// (bi-5; 24n and 36n with bi-6 rings). Every function is C2 everywhere but at the centre: there
-/// the functions of rings vanish near by, and the guides are as smooth as the scheme. V_m lies in
-/// V_(m+1), by the sparse matrix [`RefinableSpace::refinement`].
+/// (bi-5; 24n and 36n with bi-6 rings). Every function is C2 everywhere except at the centre. Near
+/// the centre the functions of rings vanish, and the guides are as smooth as the scheme. V_m lies
+/// in V_(m+1), by the sparse matrix [`RefinableSpace::refinement`].
 ///
 /// **Functions**, by number: those of the border (level 0), of ring 0 (level 1, then the ring's
 /// own), of ring 1, ..., and the guides, which are the eigenfunctions in their order, scaled to be
@@ -30,8 +30,8 @@ use crate::sparse::Stencils;
 /// (fourfold in bi-6): they are not negative, and their sum and function
 /// [`RefinableSpace::constant`] are the same as 1.
 ///
-/// A function of level l lives on rings l-1 and l, one of the ring's own on that ring only. Those
-/// of level 0 live on ring 0 and, in the same way, beyond the border.
+/// A function of level l lives on rings l-1 and l, a function of one ring on that ring only. The
+/// functions of level 0 live on ring 0 and, in the same way, beyond the border.
 ///
 /// ```
 /// use evenlight::SchemeKind;
@@ -55,28 +55,28 @@ pub struct RefinableSpace {
     rings: usize,
 }
 
-/// What the spaces V_0, V_1, ... share.
+/// The data that the spaces V_0, V_1, ... share.
 #[derive(Debug)]
 struct Common {
     eigen: Eigenfunctions,
     layout: Slots,
-    /// For each square and coefficient what it is made of.
+    /// For each square and coefficient what determines it.
     patches: [Vec<Source>; 3],
 }
 
-/// What decides on a coefficient of a ring; numbers are slots of [`Slots`].
+/// What determines a coefficient of a ring; numbers are slots of [`Slots`].
 #[derive(Debug)]
 enum Source {
-    /// The level before the ring.
+    /// The functions of the level before the ring.
     Outer(Combination),
-    /// The ring's functions, with those of the level of its hole; or the guide.
+    /// The functions of the ring and of the level of its hole, or the guide.
     Inner(Combination),
 }
 
-/// What a function belongs to, see [`RefinableSpace`].
+/// The place to which a function belongs, see [`RefinableSpace`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FunctionKind {
-    /// A corner or edge of the hole of ring `level` - 1; level 0 is the border of the whole.
+    /// A corner or edge of the hole of ring `level` - 1; level 0 is the outer border of ring 0.
     Level {
         /// The level.
         level: usize,
@@ -165,7 +165,7 @@ impl RefinableSpace {
         (self.rings < MAX_RINGS).then(|| self.with_rings(self.rings + 1))
     }
 
-    /// The space V_m of so many rings.
+    /// The space V_m with m = `rings`.
     fn with_rings(&self, rings: usize) -> Self {
         Self { common: Arc::clone(&self.common), rings }
     }
@@ -210,12 +210,12 @@ impl RefinableSpace {
         &self.common.eigen
     }
 
-    /// What function `k` belongs to; `None` if `k` is not below [`RefinableSpace::dim`].
+    /// Where function `k` belongs; `None` if `k` is not below [`RefinableSpace::dim`].
     pub fn kind(&self, k: usize) -> Option<FunctionKind> {
         (k < self.dim()).then(|| self.kind_of(k))
     }
 
-    /// What a function that there is belongs to.
+    /// Where a function belongs that is known to exist.
     fn kind_of(&self, k: usize) -> FunctionKind {
         let (border, ring) = (self.num_border_functions(), self.num_ring_functions());
         let of_level = self.common.layout.of_level();
@@ -285,7 +285,7 @@ impl RefinableSpace {
         is_known.then(|| self.element_of(ring, sector, which))
     }
 
-    /// The element of a patch that there is.
+    /// The element of a patch that is known to exist.
     fn element_of(&self, ring: usize, sector: usize, which: usize) -> Element {
         let size = (self.degree() + 1) * (self.degree() + 1);
         let mut found: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
@@ -414,11 +414,11 @@ impl RefinableSpace {
         Some(jet_of_patch(self.degree(), &coefs, at).scaled(1.0, size.map(|size| speed / size)))
     }
 
-    /// The matrix from the values of functions of V_m to those of V_(m+1): row k has what function
-    /// k of V_(m+1) is multiplied by.
+    /// The matrix from the values of functions of V_m to the values of functions of V_(m+1): row k
+    /// gives the value of function k of V_(m+1).
     ///
-    /// It is the identity on the border and the rings; the new ring takes what the guide gives it,
-    /// and the guide shrinks: eigenfunction by eigenfunction it is multiplied by lambda^s.
+    /// It is the identity on the border and the rings. The new ring takes its values from the
+    /// guide. The guide shrinks: each eigenfunction is multiplied by its lambda^s.
     pub fn refinement(&self) -> Stencils {
         let (first, guides) = (self.first_guide(), self.eigenfunctions().len());
         let kept = (0..first).map(|k| vec![(k, 1.0)]);
@@ -432,7 +432,7 @@ impl RefinableSpace {
         matrix.expect("every column is a function")
     }
 
-    /// The values of the functions of a ring in eigenfunction `k` on ring 0, in the order of
+    /// Eigenfunction `k` on ring 0 as values of the functions of a ring, in the order of their
     /// numbers.
     fn functions_of_ring(&self, k: usize) -> Vec<f64> {
         let (layout, order) = (self.common.layout, self.degree() + 1);
@@ -451,7 +451,7 @@ impl RefinableSpace {
         [all(level), all(own)].concat()
     }
 
-    /// The values of the functions of V_m in eigenfunction `k`; `None` if there is no such
+    /// Eigenfunction `k` as values of the functions of V_m; `None` if there is no such
     /// eigenfunction.
     pub fn eigenfunction(&self, k: usize) -> Option<Vec<f64>> {
         let eigen = self.eigenfunctions();
@@ -471,8 +471,8 @@ impl RefinableSpace {
         Some(values)
     }
 
-    /// The values of the functions that make 1: all functions of the border and the rings, and the
-    /// first guide.
+    /// The constant 1 as values of the functions: 1 for all functions of the border and the rings
+    /// and for the first guide, else 0.
     pub fn constant(&self) -> Vec<f64> {
         let guide = self.first_guide();
         (0..self.dim()).map(|k| f64::from(u8::from(k <= guide))).collect()
@@ -543,7 +543,7 @@ impl RefinableSpace {
     }
 }
 
-/// What the coefficients of a square are made of.
+/// What determines the coefficients of a square.
 fn sources(eigen: &Eigenfunctions, layout: Slots, square: usize) -> Vec<Source> {
     let order = layout.degree + 1;
     let coefs = (0..order * order).map(|at| (at, [at / order, at % order]));

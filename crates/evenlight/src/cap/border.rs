@@ -1,8 +1,8 @@
-//! The border of a hole: what the patches just outside say along it.
+//! The border of a hole: the data that the patches just outside have along it.
 //!
-//! Data are taken from the ring that would come next, which joins what is outside with second
-//! derivatives and is in the coordinates of the hole; so holes in front of the first ring are no
-//! special case.
+//! The data come from the ring that would be next: it joins what is outside with second
+//! derivatives, and it is in the coordinates of the hole. So a hole in front of the first ring is
+//! no special case.
 
 use super::sector::LAYERS;
 use super::spline::Space;
@@ -20,7 +20,7 @@ pub(super) struct Border {
 }
 
 impl Border {
-    /// For patches of bi-`degree` that cover the parts `domains` of a sector.
+    /// The rules for patches of bi-`degree` that cover the parts `domains` of a sector.
     pub(super) fn new(degree: usize, domains: &[[[f64; 2]; 2]], space: Space) -> Self {
         const NEAR: f64 = 1e-9;
         let edge = |across: usize| {

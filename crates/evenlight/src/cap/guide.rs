@@ -1,8 +1,8 @@
 //! Caps that follow the guide of guided subdivision [KP18-Guided, App. B].
 //!
 //! A ring samples the guide along chi; the cap samples it along the bi-6 map of the plane, in jets
-//! at the corners of its patches. What the samples lack to join is changed as little as possible;
-//! with one bi-6 patch per sector only where the paper changes it:
+//! at the corners of its patches. The samples do not join; they are changed as little as possible
+//! until they do. With one bi-6 patch per sector they change only where the paper changes them:
 //!
 //! ```text
 //!   r r r r r r r      r  first-order data of the last ring
@@ -24,7 +24,7 @@ use crate::scheme::{guide_monomials, sampled_guide};
 /// One bi-6 patch per sector.
 pub(super) const SEXTIC: Space = Space { degree: 6, pieces: 1, smooth: 2 };
 
-/// The guide as a cap sees it.
+/// The guide sampled for a cap.
 #[derive(Clone, Debug)]
 pub(super) struct Samples {
     /// The BB coefficients of the pieces of a sector, sampled from the powers u^i v^j of the guide.

@@ -13,19 +13,21 @@
 //!    0      .5       1  a, line s-1
 //! ```
 //!
-//! Caps join the last ring, or for K = 0 the surrounding surface, with first derivatives; position
-//! and tangent plane are common on the lines; and all sectors have one quadratic at the centre,
-//! that of the scheme's q or guide if it has one, so that curvature exists there. What freedom is
-//! left follows the guide or bends least (module `rules`).
+//! Caps join the last ring, or for K = 0 the surrounding surface, with first derivatives. Position
+//! and tangent plane are common on the lines. All sectors have one quadratic at the centre, so that
+//! curvature exists there: the scheme's q or the quadratic of its guide, if it has one. The freedom
+//! that is left follows the guide or bends least (module `rules`).
 //!
-//! If the patches of a ring are split themselves, a cap is split in the smallest multiple of that.
+//! If a ring has m x m patches per square, the number of patches along a side of a cap is the
+//! smallest suitable multiple of m.
 //!
-//! All this is for points that are smooth all around. At boundaries, creases, corners and darts,
-//! and at valences 2, above [`MAX_VALENCE`], and 4 (of nets by themselves; in cages that is
-//! regular), there is one bi-4 patch per sector (bi-3, if that is asked for), with first
-//! derivatives to the last ring, exact creases, and at fans common tangent planes on the lines if
-//! the point has a tangent plane (module `plain`); behind fair rings beside a crease there are 2 x
-//! 2 (module `fair`).
+//! All this is for points that are smooth all around. Other points have plain caps (module
+//! `plain`): at boundaries, creases, corners and darts, and at valences 2, above [`MAX_VALENCE`],
+//! and 4 (of nets by themselves; in cages that is regular). A plain cap is one bi-4 patch per
+//! sector (bi-3, if the options ask for it). It joins the last ring with first derivatives, and its
+//! creases are exact. At fans its tangent planes are common on the lines, if the point has a
+//! tangent plane. Behind fair rings beside a crease a cap has 2 x 2 patches per sector (module
+//! `fair`).
 
 mod border;
 mod fair;
@@ -55,7 +57,7 @@ use spline::Space;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CapKind {
-    /// What suits the scheme best ([`CapKind::of_scheme`]).
+    /// The kind that suits the scheme best ([`CapKind::of_scheme`]).
     #[default]
     Auto,
     /// Bi-3, 3 x 3 patches per sector.
@@ -79,7 +81,7 @@ pub struct CapOptions {
 }
 
 impl CapOptions {
-    /// Whether there are so many rings.
+    /// Checks that there are this many rings.
     pub(crate) fn check_rings(self) -> Result<(), CapError> {
         let Self { rings, .. } = self;
         if rings > MAX_RINGS { Err(CapError::Rings { rings }) } else { Ok(()) }
@@ -114,7 +116,7 @@ pub enum CapError {
         /// The scheme.
         scheme: SchemeKind,
     },
-    /// There are to be more rings in front of the cap than there are.
+    /// More rings are asked for in front of the cap than there are.
     #[error("{rings} rings in front of a cap: there may be {MAX_RINGS} at most")]
     Rings {
         /// The number asked for.
@@ -134,8 +136,8 @@ pub enum CapError {
     },
 }
 
-/// The highest valence with caps of the kind asked for: beyond it sectors are slivers, the rules
-/// would take seconds, and caps are plain.
+/// The highest valence with caps of the kind asked for. Beyond it caps are plain, as sectors are
+/// slivers and the rules would take seconds.
 pub const MAX_VALENCE: usize = 64;
 
 /// The name in commands and files.
@@ -170,7 +172,7 @@ impl CapKind {
         }
     }
 
-    /// What `Auto` is for a scheme.
+    /// The kind that `Auto` means for a scheme.
     pub fn of_scheme(scheme: SchemeKind) -> Self {
         match scheme {
             SchemeKind::Guided6 => Self::Bi6,
@@ -222,14 +224,14 @@ pub struct Cap<const N: usize = 3> {
 }
 
 impl Cap {
-    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`, the hole
-    /// being the unit square; derivatives are by the sector's own parameters, as those of the
-    /// rings.
+    /// Position, derivatives by a and b, normal and curvature at (a,b) of sector `s`, where the
+    /// hole is the unit square. Derivatives are by the sector's own parameters, as in
+    /// [`Rings::eval`].
     ///
-    /// `rings` must be those that the cap was made for. At the centre the curvature is that of the
-    /// common quadratic. Around fans and other plain caps it has the limit normal, if there is one,
-    /// and no curvature (NaN), as sectors have different ones. `None` if `s` is not below the
-    /// valence or a, b are not from 0 to 1.
+    /// `rings` must be the rings that the cap was made for. The centre has the curvature of the
+    /// common quadratic. The centre of a plain cap has the limit normal, if there is one, and no
+    /// curvature (NaN), as it differs between sectors. `None` if `s` is not below the valence or
+    /// a, b are not from 0 to 1.
     pub fn eval(&self, rings: &Rings, s: usize, at: [f64; 2]) -> Option<SurfacePoint> {
         let is_inside = at.iter().all(|x| (0.0..=1.0).contains(x));
         (self.has_patch(s, 0) && is_inside).then(|| self.eval_as(rings, s, at))
@@ -283,7 +285,7 @@ impl<const N: usize> Cap<N> {
         self.space.degree
     }
 
-    /// Along each side of a sector so many patches.
+    /// The number of patches along each side of a sector.
     pub fn split(&self) -> usize {
         self.space.pieces
     }
@@ -371,7 +373,7 @@ impl ValenceCap {
         }
     }
 
-    /// Along each side of a sector so many patches.
+    /// The number of patches along each side of a sector.
     pub(crate) fn split(&self) -> usize {
         self.space().pieces
     }

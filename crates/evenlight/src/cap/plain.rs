@@ -1,6 +1,5 @@
-//! Plain caps: one patch per sector, wherever the plane around a point is not a full turn of equal
-//! sectors. That is at fans between sharp edges, darts, sharp vertices, and at valences 2, 4 and
-//! above [`MAX_VALENCE`].
+//! Plain caps: one patch per sector, at all points that have no other caps. These are fans between
+//! sharp edges, darts, sharp vertices, and points of valence 2, 4 and above [`MAX_VALENCE`].
 //!
 //! ```text
 //!   line s+1
@@ -20,8 +19,8 @@
 //!   T_s = cos(s theta) X + sin(s theta) Y,     theta = pi/f between two creases, 2 pi/f at a dart,
 //! ```
 //!
-//! where X and Y are the directions of the limit tangent plane, as long as they must be for the
-//! lines of the eigenvectors to be parabolas. Without a tangent plane every line is a parabola.
+//! where X and Y are the directions of the limit tangent plane. Their lengths are such that the
+//! lines of the eigenvectors are parabolas. Without a tangent plane every line is a parabola.
 //!
 //! *Inside.* The bi-3 patch with the least third differences is raised to bi-4 and moved as little
 //! as possible, so that for sectors a ahead and b behind a line
@@ -30,11 +29,11 @@
 //!   a_v + b_v = (1-u)^2 W(u),     W = 2 cos(theta) a_u [KP18-Guided, eq. 6],
 //! ```
 //!
-//! hence with one tangent plane. That asks for the sum of the two coefficients beside each of a
-//! line; the sums of the twists t_s beside the centre form a chain t_0 + t_1, t_1 + t_2, ... from
-//! the first to the last line. Bi-3 patches take the value at the centre, W = 2 cos(theta) T_s, and
-//! come close. Without a tangent plane W = T_(s-1) + T_(s+1), and twists meet the sums half way, as
-//! a chain would alternate.
+//! hence with one tangent plane. This condition gives, for each coefficient of a line, the sum of
+//! the two coefficients beside it. The sums of the twists t_s beside the centre form a chain
+//! t_0 + t_1, t_1 + t_2, ... from the first to the last line. Bi-3 patches take the value of W at
+//! the centre, W = 2 cos(theta) T_s, and come close. Without a tangent plane W = T_(s-1) + T_(s+1),
+//! and each twist takes half of what its sums lack, as the solution of a chain would alternate.
 
 use std::f64::consts::{PI, TAU};
 
@@ -48,7 +47,7 @@ use crate::point::{add, add_scaled, scale, sub};
 use crate::rings::{Rings, ValenceRules};
 use crate::scheme::{FanLimit, Row, Rules};
 
-/// Whether these rules have plain caps. All of them are Catmull-Clark's.
+/// Whether these rules have plain caps. All such rules are Catmull-Clark's.
 pub(super) fn is_plain(rules: &ValenceRules) -> bool {
     let n = rules.rules().valence;
     rules.fan_limit().is_some() || n == 2 || n == 4 || n > MAX_VALENCE
@@ -60,9 +59,9 @@ pub(crate) struct PlainCap {
     degree: usize,
     lines: FanLines,
     border: Border,
-    /// Whether there is a tangent plane, in which the lines leave the centre in equal angles.
+    /// Whether there is a tangent plane. In it the lines leave the centre at equal angles.
     has_plane: bool,
-    /// What the tangents of lines follow from, if they are not given.
+    /// The directions from which the tangents of lines follow, if they are not given.
     directions: Option<Directions>,
 }
 
@@ -70,14 +69,14 @@ pub(crate) struct PlainCap {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FanLines {
     sectors: usize,
-    /// Whether the last sector ends at line 0, not at one more.
+    /// Whether the last sector ends at line 0; else there is one more line.
     is_closed: bool,
     /// Whether line 0 is sharp though the fan is closed.
     has_dart: bool,
 }
 
-/// The directions of the limit tangent plane, the first along the crease if there is one, as rows
-/// on a net with its vertex, and how much of cos(s theta) and sin(s theta) is in each.
+/// The directions of the limit tangent plane, as rows on a net with its vertex, and how much of
+/// cos(s theta) and sin(s theta) is in each. The first is along the crease if there is one.
 type Directions = [(Row, [f64; 2]); 2];
 
 /// The bi-3 patch of a sector, the coefficients along line s+1 fastest.
@@ -98,8 +97,8 @@ impl PlainCap {
         cap
     }
 
-    /// Inside fair rings beside a crease, which have a tangent plane and find the tangents
-    /// themselves.
+    /// The rules inside fair rings beside a crease, which have a tangent plane and find the
+    /// tangents themselves.
     pub(super) fn inside(rules: &ValenceRules, kind: CapKind) -> Self {
         let border = Border::new(3, &domains(rules.rules()), Space::polynomials(3));
         let degree = if kind == CapKind::Bi3 { 3 } else { 4 };
@@ -122,7 +121,7 @@ impl PlainCap {
         self.patches_within(&outside, &tangents)
     }
 
-    /// The patches with these data on the outer edges and these tangents of the lines.
+    /// The patches with these data on the outer edges and with these tangents of the lines.
     pub(super) fn patches_within<const N: usize>(
         &self,
         outside: &[Vec<[f64; N]>],
@@ -315,7 +314,7 @@ impl FanLines {
         moves
     }
 
-    /// Of every sector the mean of the halves that are missing on its smooth lines.
+    /// For every sector the mean of the halves that are missing on its smooth lines.
     fn half_way<const N: usize>(self, missing: &[(usize, [f64; N])]) -> Vec<[f64; N]> {
         let mut moves = vec![([0.0; N], 0.0); self.sectors];
         for &(line, sum) in missing {
@@ -338,8 +337,8 @@ impl<const N: usize> LineEnd<N> {
         Self([0, 1, 2].map(|layer| outside[sector][at(edge, layer, 0)]))
     }
 
-    /// The derivative at the centre, which is the origin: of the cubic that goes on with second
-    /// derivatives, or of the parabola that does with first ones.
+    /// The derivative at the centre, which is the origin, of the curve that continues the line: a
+    /// cubic with second derivatives, or a parabola with first ones.
     pub(super) fn tangent(&self, is_cubic: bool) -> [f64; N] {
         let weights = if is_cubic { [3.0, -2.0, 0.5] } else { [2.0, -1.0, 0.0] };
         let mut sum = [0.0; N];
@@ -380,11 +379,11 @@ fn bicubic<const N: usize>(outside: &[[f64; N]], [first, last]: [[f64; N]; 2]) -
     net
 }
 
-/// Steps of a power iteration: eigenvectors to half their digits at least, which is plenty for a
-/// length.
+/// Steps of a power iteration. They give eigenvectors to half their digits at least, which is
+/// enough for a length.
 const POWER_STEPS: usize = 60;
 
-/// For the right eigenvector on which a left one is 1, the tangents of all lines as parabolas.
+/// The tangents of all lines as parabolas, for the right eigenvector on which a left one is 1.
 fn line_ends_of_eigenvector(
     row: &Row,
     rules: &Rules,
@@ -392,10 +391,10 @@ fn line_ends_of_eigenvector(
     border: &Border,
     lines: FanLines,
 ) -> Vec<f64> {
-    // The left eigenvector is a net with the same symmetry, and has a part of the right one.
+    // The left eigenvector is a net with the same symmetry; a part of it is the right eigenvector.
     let mut net = vec![[0.0]; rules.num_nodes()];
     for &(k, w) in row {
-        // The vertex, the last node of the row, is none of the net.
+        // The vertex is the last node of the row, but no node of the net.
         if let Some(p) = net.get_mut(k) {
             p[0] = w;
         }

@@ -7,8 +7,8 @@
 //! the centre, the bisectrix of sector 0 along the real axis, and the ends of the outer edges at
 //! distance 1.
 //!
-//! A surface x(u,v) that is a polynomial of zeta bends no less and no more than that: derivatives
-//! of x by zeta are what fairness is measured in.
+//! A surface x(u,v) that is a polynomial of zeta must bend as that polynomial does. So fairness is
+//! measured by the derivatives of x by zeta.
 
 use super::sector::{Complex, LAYERS, Sector};
 use super::spline::inverted;
@@ -16,7 +16,7 @@ use crate::dense::{Matrix, constrained_least_squares};
 use crate::pairs::pairs;
 use crate::quadrature::GAUSS_7;
 
-/// How strongly caps hold to tangency where it cannot be exact, against bending.
+/// The weight of tangency against bending, where tangency cannot be exact.
 pub(super) const TANGENCY: f64 = 1e3;
 
 /// Whether the tangency of a sector's splines can be exact: for bi-3 it cannot. With C1 at the
@@ -26,7 +26,7 @@ pub(super) fn is_exact(sector: &Sector) -> bool {
     sector.space.degree > 3
 }
 
-/// The conditions of a mode, and the rows that hold to tangency as well as they can.
+/// The conditions of a mode, and the rows whose least squares keep tangency where it is not exact.
 pub(super) fn conditions(sector: &Sector, mode: usize) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let mut exact = sector.continuity(mode);
     let mut tangency = sector.tangency(mode);
@@ -41,7 +41,7 @@ pub(super) fn conditions(sector: &Sector, mode: usize) -> (Vec<Vec<f64>>, Vec<Ve
 
 /// The coefficients of the map zeta in sector 0 for the border data of chi.
 pub(super) fn map(sector: &Sector, border: &[Complex]) -> Vec<Complex> {
-    // The map is a function of mode 1, its own mirror image.
+    // The map is a function of mode 1 and its own mirror image.
     let real: Vec<f64> = border.iter().map(|[x, y]| x + y).collect();
     let mut unknowns = Vec::new();
     let mut known = vec![0.0; sector.num_coefs()];
@@ -137,7 +137,7 @@ pub(super) fn mismatch(sector: &Sector, map: &[Complex], chi: &[Complex]) -> Vec
 /// The 2-jet at the centre of a function of zeta, as BB coefficients in the order of
 /// [`Sector::center`].
 ///
-/// `zeta` is that of zeta itself.
+/// `zeta` is the 2-jet of zeta itself.
 pub(super) fn center_jet(
     degree: usize,
     zeta: [Complex; 6],
@@ -178,9 +178,9 @@ pub(super) enum PlaneFunction {
     SquareConjugate,
 }
 
-/// Rows of all derivatives of order `k` by Cartesian coordinates, such that their squares sum to
-/// |D^k|^2: from the Taylor coefficients u^p v^q of zeta, and rows of those of a function, number
-/// (k+1) p + q.
+/// Rows of all derivatives of order `k` by Cartesian coordinates; their squares sum to |D^k|^2.
+/// They follow from the Taylor coefficients u^p v^q of zeta and from the rows of the coefficients
+/// of a function, number (k+1) p + q.
 fn derivatives(zeta: &[Complex], k: usize, taylor: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let monomials: Vec<(usize, usize)> =
         (0..=k).flat_map(|s| (0..=s).map(move |a| (a, s - a))).collect();

@@ -1,4 +1,4 @@
-//! Caps of points that are smooth all around: what they are given, and by what scheme.
+//! Caps of points that are smooth all around: which data they get, and from which scheme.
 
 use super::border::Border;
 use super::rules::{self, CapRules, Shape, pieces};
@@ -91,7 +91,7 @@ impl RoundCap {
         data
     }
 
-    /// What is given at the centre, as weights of x, y, x^2 + y^2, Re (x + iy)^2, Im (x + iy)^2.
+    /// The data at the centre, as weights of x, y, x^2 + y^2, Re (x + iy)^2, Im (x + iy)^2.
     fn center<const N: usize>(
         &self,
         rings: &Rings<N>,
@@ -117,7 +117,7 @@ impl RoundCap {
     }
 }
 
-/// Whether a cap has joints wherever the inner border of a ring has.
+/// Whether a cap has joints wherever the inner border of a ring has joints.
 fn cuts_fit(rules: &Rules, space: Space) -> bool {
     let fits = |[_, [b0, b1]]: [[f64; 2]; 2]| {
         let at = b0 / rules.sigma() * space.pieces as f64;

@@ -1,7 +1,7 @@
 //! The linear rules of a cap at one valence: from the last ring and the centre to the cap.
 //!
 //! In every Fourier mode the coefficients are the solution of a small least-squares problem under
-//! the conditions of [`sector`](super::sector). Without a guide what is least is
+//! the conditions of [`sector`](super::sector). Without a guide they minimise
 //!
 //! ```text
 //!   integral over the hole of |D^3 x|^2  +  MISMATCH times the integral along its border of
@@ -9,9 +9,9 @@
 //! ```
 //!
 //! both by the Cartesian coordinates of the plane ([`plane`](super::plane)), so that quadratics of
-//! the plane stay what they are. With a guide g it is the squared distance of the BB coefficients
-//! from those sampled of g along the map of the plane. The solutions of all modes together are
-//! weights of the data of the sectors around.
+//! the plane are reproduced. With a guide g they minimise the squared distance of the BB
+//! coefficients from the samples of g along the map of the plane. The solutions of all modes
+//! together are weights of the data of the sectors around.
 
 use super::guide::{SEXTIC, Samples, mirrored_datum};
 use super::plane::{self, PlaneFunction};
@@ -24,14 +24,14 @@ use crate::pairs::pairs;
 /// How much the jump of second derivatives at the border counts against third derivatives inside.
 const MISMATCH: f64 = 10.0;
 
-/// What is given at the centre, as weights of Cartesian functions of the plane:
+/// The data at the centre, as weights of Cartesian functions of the plane:
 /// x, y, x^2 + y^2, Re (x + iy)^2, Im (x + iy)^2.
 pub(super) const PLANE_FUNCTIONS: usize = 5;
 
 /// What a cap follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Shape {
-    /// The tangent plane of the scheme; the quadratic at the centre is chosen with the rest.
+    /// The tangent plane of the scheme; the quadratic at the centre is unknown like the rest.
     Fair,
     /// A quadratic at the centre.
     Quadratic,
@@ -45,12 +45,12 @@ pub(super) struct CapRules {
     pub(super) sector: Sector,
     /// For r = 0..n-1 the weights of the data of sector s + r in the coefficients of sector s.
     around: Vec<Matrix>,
-    /// For every sector the weights of what is given at the centre.
+    /// For every sector the weights of the data at the centre.
     center: Vec<Matrix>,
 }
 
 impl CapRules {
-    /// The rules for the border data of the plane in sector 0 that `chi` tells for any splines, in
+    /// The rules, where `chi` gives the border data of the plane in sector 0 for any splines, in
     /// complex coordinates.
     pub(super) fn new(
         valence: usize,
@@ -88,7 +88,7 @@ impl CapRules {
     }
 
     /// The spline coefficients of sector `s` from the data of all sectors, one after the other, and
-    /// what is given at the centre.
+    /// from the data at the centre.
     pub(super) fn coefs<const N: usize>(
         &self,
         s: usize,
@@ -295,7 +295,7 @@ impl<'a> Mode<'a> {
     }
 }
 
-/// The BB coefficients of the pieces of a sector, m x m patches, that along v fastest.
+/// The BB coefficients of the pieces of a sector, m x m patches, the index along v fastest.
 pub(super) fn pieces<const N: usize>(sector: &Sector, coefs: &[[f64; N]]) -> Vec<Vec<[f64; N]>> {
     let (order, m, dim) = (sector.space.degree + 1, sector.space.pieces, sector.space.dim());
     let piece = |a: usize, b: usize| {

@@ -38,7 +38,7 @@ pub(super) struct Sector {
     pub(super) valence: usize,
     /// The splines in either parameter.
     pub(super) space: Space,
-    /// [`Space::to_bb`] of them.
+    /// [`Space::to_bb`] of these splines.
     pub(super) to_bb: Matrix,
 }
 
@@ -60,7 +60,7 @@ impl Sector {
         self.space.dim() * i + j
     }
 
-    /// The number of z_ji for that of z_ij.
+    /// The number of z_ji from the number of z_ij.
     pub(super) fn mirrored(&self, at: usize) -> usize {
         self.at(at % self.space.dim(), at / self.space.dim())
     }
@@ -95,7 +95,7 @@ impl Sector {
             }
         };
         match (from(0, i, j), from(1, j, i)) {
-            // Both edges say the same of a corner; the mean keeps the mirror symmetry exactly.
+            // Both edges give a corner the same data; the mean keeps the mirror symmetry exactly.
             (Some(a), Some(b)) => {
                 Some(a.into_iter().chain(b).map(|(at, w)| (at, 0.5 * w)).collect())
             }

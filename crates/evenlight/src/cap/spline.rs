@@ -55,8 +55,7 @@ impl Space {
         1.0 / self.pieces as f64
     }
 
-    /// The knots that stand between the first and the last coefficient of spline `i`, so that the
-    /// coefficient is the blossom at them.
+    /// The knots inside the support of spline `i`; its coefficient is the blossom at these knots.
     fn knots(self, i: usize) -> Vec<f64> {
         (i + 1..=i + self.degree).map(|k| self.knot(k)).collect()
     }
@@ -118,7 +117,7 @@ impl Space {
     /// The rows of the coefficients on the BB coefficients of degree `degree` of a spline with the
     /// joints `knots` (the ends 0 and 1 included), one piece after the other.
     ///
-    /// That spline must be in the space; its joints may be more, or it may be one polynomial.
+    /// That spline must be in the space. It may have more joints, or be one polynomial.
     pub(super) fn through_pieces(self, knots: &[f64], degree: usize) -> Matrix {
         let order = degree + 1;
         let raise = raising(degree, self.degree);
@@ -144,7 +143,7 @@ impl Space {
     }
 }
 
-/// Parameters closer than this are one: rounding of thirds.
+/// Parameters closer than this count as one: thirds are rounded.
 const NEAR: f64 = 1e-9;
 
 /// The weights of the BB coefficients over [t0, t1] in the blossom at the arguments.

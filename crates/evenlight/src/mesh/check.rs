@@ -7,7 +7,7 @@
 //! * every edge has one face, or two that run through it in opposite directions;
 //! * the faces around every vertex form one fan;
 //! * tags are on edges, vertices and faces that exist, and sharpness is 0 or more;
-//! * every primvar has finite values of one to four numbers, as many as it needs.
+//! * every primvar has as many values as it needs, of one to four finite numbers each.
 //!
 //! ```text
 //!   three faces on      opposite           two fans at v
@@ -20,8 +20,8 @@
 //!         +            +--->---+--->---+       +       +
 //! ```
 //!
-//! A vertex in no face is no fault: it is reported and ignored. Nothing is asked of the shape:
-//! faces may be degenerate, pass through each other or lie upon each other.
+//! A vertex in no face is no fault: it is reported and ignored. The shape may be anything: faces
+//! may be degenerate, pass through each other or lie upon each other.
 
 mod primvars;
 
@@ -60,8 +60,8 @@ impl Cage {
     /// 4. the fans of vertices,
     /// 5. the tags.
     ///
-    /// A crease between vertices that are no neighbours is refused, though OpenSubdiv passes over
-    /// it: it is a fault of whoever wrote the tags, and the surface is not the one meant.
+    /// A crease between vertices that no edge joins is refused, though OpenSubdiv passes over it:
+    /// whoever wrote the tags made a mistake, and would not get the surface that was meant.
     ///
     /// ```
     /// use evenlight::mesh::{Cage, Mesh};
@@ -93,17 +93,17 @@ impl Cage {
         })
     }
 
-    /// The same cage with other positions, of all vertices.
+    /// The same cage with other positions for all vertices.
     ///
     /// # Errors
     ///
-    /// [`ValuesError`] if there are not as many, or one is not finite.
+    /// [`ValuesError`] if there is not one position for each vertex, or one is not finite.
     pub fn with_positions(&self, positions: Vec<Point>) -> Result<Self, ValuesError> {
         check_values(&positions, self.positions.len())?;
         Ok(Self { positions: positions.into(), ..self.clone() })
     }
 
-    /// The position of every vertex, those in no face included.
+    /// The position of every vertex, vertices in no face included.
     pub fn positions(&self) -> &[Point] {
         &self.positions
     }
@@ -154,7 +154,7 @@ impl Cage {
         self.topology.faces().len()
     }
 
-    /// The number of edges, those of the boundary included.
+    /// The number of edges, boundary edges included.
     pub fn num_edges(&self) -> usize {
         // An inner edge is two half-edges, a boundary edge one.
         (self.topology.half_edges().count() + self.num_boundary_edges()) / 2
@@ -188,11 +188,11 @@ impl Cage {
     }
 }
 
-/// Why values cannot be those of the vertices of a cage.
+/// Why values do not fit the vertices of a cage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ValuesError {
-    /// There are not as many as vertices.
+    /// There are not as many values as vertices.
     #[error("there are {found} values for {expected} vertices: give one for each")]
     Count {
         /// The number of vertices.
@@ -208,7 +208,7 @@ pub enum ValuesError {
     },
 }
 
-/// Checks values of so many vertices.
+/// Checks the values of this number of vertices.
 pub(crate) fn check_values<const N: usize>(
     values: &[[f64; N]],
     num_vertices: usize,
@@ -253,7 +253,7 @@ fn position_faults(positions: &[Point]) -> impl Iterator<Item = MeshError> {
     faulty.map(|(&position, v)| MeshError::NonFinitePosition { vertex: VertexId(v), position })
 }
 
-/// Tags on what is not there, and sharpness that is none.
+/// Tags on what does not exist, and sharpness that is negative or NaN.
 fn tag_faults(topology: &Topology, tags: &Tags) -> Vec<MeshError> {
     let has_vertex = |v: VertexId| v.index() < topology.num_vertices();
     let has_edge = |edge: [VertexId; 2]| {
@@ -277,13 +277,13 @@ fn tag_faults(topology: &Topology, tags: &Tags) -> Vec<MeshError> {
     creases.chain(corners).chain(holes).filter_map(fault).collect()
 }
 
-/// Connects the faces, each of which is sound for itself.
+/// Connects the faces, after each was checked by itself.
 fn connect(faces: &Faces, num_vertices: usize) -> Result<Topology, CheckError> {
     let topology = Topology::of_checked(faces.clone(), num_vertices);
     topology.map_err(|errors| CheckError { errors: name_duplicates(faces, errors) })
 }
 
-/// Tells the faults that come from a face being there twice by that cause.
+/// Reports faults that a repeated face causes as that repeated face.
 fn name_duplicates(faces: &Faces, mut errors: Vec<MeshError>) -> Vec<MeshError> {
     let first = first_of_duplicates(faces, &errors);
     errors.retain(|error| {
@@ -294,7 +294,7 @@ fn name_duplicates(faces: &Faces, mut errors: Vec<MeshError>) -> Vec<MeshError> 
     duplicates.map(|faces| MeshError::DuplicateFace { faces }).chain(errors).collect()
 }
 
-/// From every face in `errors` that repeats an earlier one of them, to the first such.
+/// For every face in `errors` that repeats an earlier face in `errors`: the first such face.
 fn first_of_duplicates(faces: &Faces, errors: &[MeshError]) -> BTreeMap<FaceId, FaceId> {
     let suspects: BTreeSet<FaceId> = errors.iter().flat_map(edge_faces).copied().collect();
     let mut first_with = BTreeMap::new();
@@ -308,7 +308,7 @@ fn first_of_duplicates(faces: &Faces, errors: &[MeshError]) -> BTreeMap<FaceId, 
     first_of
 }
 
-/// The faces that meet at the edge of an edge's fault; none for other faults.
+/// The faces that meet at the edge of a fault; none if the fault is not one of an edge.
 fn edge_faces(error: &MeshError) -> &[FaceId] {
     match error {
         MeshError::InconsistentOrientation { faces, .. } => faces,
@@ -317,8 +317,8 @@ fn edge_faces(error: &MeshError) -> &[FaceId] {
     }
 }
 
-/// The corners from the lowest one towards its lower neighbour: the same for every corner and
-/// direction to begin with.
+/// The corners from the lowest one towards its lower neighbour: the same list, whatever the first
+/// corner and the direction of the face are.
 fn canonical(corners: &[VertexId]) -> Vec<VertexId> {
     let mut corners = corners.to_vec();
     let lowest = (0..corners.len()).min_by_key(|&i| corners[i]).unwrap_or(0);
@@ -366,7 +366,7 @@ impl DisjointSets {
         v
     }
 
-    /// Joins the sets of all corners; how many pairs of sets became one.
+    /// Joins the sets of all corners; gives the number of pairs of sets that became one.
     fn join_all(&mut self, corners: &[VertexId]) -> usize {
         corners.windows(2).filter(|edge| self.join(edge[0], edge[1])).count()
     }

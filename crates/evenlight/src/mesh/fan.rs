@@ -1,7 +1,8 @@
 //! Fans: the faces around a vertex between two sharp edges.
 //!
-//! An infinitely sharp edge, like the boundary, separates the surfaces on its two sides: each
-//! side is refined by its own faces and the crease alone. Around a vertex that leaves *fans*:
+//! An infinitely sharp edge, like the boundary, separates the surfaces on its two sides: the
+//! refinement of each side depends on its own faces and the crease alone. So the faces around a
+//! vertex form *fans*:
 //!
 //! ```text
 //!    \ 2 | 1 /            2 | 1               2 | 1               \ 3 | 2 /
@@ -13,8 +14,8 @@
 //! ```
 //!
 //! An open fan of two faces at a crease, or of one face at a corner, is *regular*: its faces are
-//! bi-3 patches up to the sharp edge. So is the smooth vertex of four faces. What is left is
-//! extraordinary.
+//! bi-3 patches up to the sharp edge. A smooth vertex of four faces is regular, too. All other fans
+//! are extraordinary.
 
 use super::sharpness::{Sharpness, is_semi_sharp};
 use super::{HalfEdgeId, Topology, VertexId};
@@ -37,13 +38,13 @@ pub(crate) fn sectors(t: &Topology, fan: PlacedFan) -> impl Iterator<Item = Half
     })
 }
 
-/// What is special about the vertices of one level.
+/// Which vertices of one level are special.
 pub(crate) struct Features<'a> {
     pub(crate) topology: &'a Topology,
     pub(crate) sharpness: &'a Sharpness,
     /// Whether a vertex is an inner vertex of a regular, smooth grid of quads.
     is_regular: Vec<bool>,
-    /// Whether a vertex has an n-gon; empty if there is none.
+    /// Whether an n-gon has the vertex as a corner; empty if there are only quads.
     has_ngon: Vec<bool>,
 }
 
@@ -100,13 +101,13 @@ impl<'a> Features<'a> {
         }
     }
 
-    /// Infinitely sharp, where nothing is semi-sharp; an edge at the end of a refined part, of
-    /// which nothing is known, is no less.
+    /// Whether the sharpness is infinite, where nothing is semi-sharp. An edge at the end of a
+    /// refined part has unknown sharpness and counts as sharp.
     fn is_sharp(&self, sharpness: f64) -> bool {
         sharpness != 0.0
     }
 
-    /// The sector to which one comes from `h` by turning clockwise up to a sharp edge.
+    /// The sector that is reached from `h` by turning clockwise up to a sharp edge.
     fn clockwise_most(&self, h: HalfEdgeId) -> HalfEdgeId {
         let t = self.topology;
         let mut at = h;

@@ -1,8 +1,8 @@
 //! What can be wrong with a mesh, and how its author is told.
 //!
 //! A fault holds the numbers of the library, from 0. The author of a file thinks of its lines,
-//! and of numbers from 1: [`Names`] puts these in the place of those, so that every message is
-//! written once, here. Each says what is wrong, where, and what to do about it.
+//! and of numbers from 1: [`Names`] translates, so that every message is written once, here. Each
+//! message says what is wrong, where, and what to do about it.
 
 use std::fmt;
 
@@ -20,7 +20,7 @@ pub enum MeshError {
         /// The number of vertices.
         num_vertices: usize,
     },
-    /// There are more vertices, faces or corners than 32 bits can number.
+    /// There are more vertices, faces or corners than 32 bits can count.
     TooLarge {
         /// What there is too much of: "vertices", "faces" or "corners".
         what: &'static str,
@@ -47,20 +47,20 @@ pub enum MeshError {
     IndexOutOfRange {
         /// The face.
         face: FaceId,
-        /// The number that its corner has.
+        /// The number of the vertex that does not exist.
         vertex: VertexId,
         /// The number of vertices.
         num_vertices: usize,
     },
-    /// A face comes to a vertex more than once; the first such vertex of the face.
+    /// A face comes to a vertex more than once. This names the first such vertex of the face.
     RepeatedVertex {
         /// The face.
         face: FaceId,
         /// The vertex.
         vertex: VertexId,
     },
-    /// Two faces have the same corners in the same or the opposite order, where this takes an
-    /// edge more faces than it can have. The faults of those edges are not listed on their own.
+    /// Two faces have the same corners in the same or the opposite order, and so an edge has more
+    /// faces than it can have. The faults of such edges are not listed on their own.
     DuplicateFace {
         /// The two faces, the lower number first.
         faces: [FaceId; 2],
@@ -86,17 +86,17 @@ pub enum MeshError {
     },
     /// A sharp edge or vertex, or a hole, that is not in the mesh.
     UnknownTag {
-        /// What it is said to be.
+        /// What the tag names.
         what: Tagged,
     },
-    /// Sharpness that is negative or NaN.
+    /// A sharpness is negative or NaN.
     Sharpness {
-        /// Of what.
+        /// What has the sharpness.
         what: Tagged,
         /// The sharpness.
         sharpness: f64,
     },
-    /// A primvar has not what it needs.
+    /// A primvar is not as it must be.
     Primvar {
         /// Its name.
         name: String,
@@ -240,7 +240,7 @@ impl fmt::Display for CheckError {
 
 impl std::error::Error for CheckError {}
 
-/// The only fault as it is, or all `listed` under their number `total`.
+/// A single fault alone; else the number `total` of faults, then all that are `listed`.
 pub(crate) fn one_per_line(listed: Vec<String>, total: usize) -> String {
     if let ([only], 1) = (&listed[..], total) {
         return only.clone();
@@ -260,9 +260,9 @@ pub(crate) fn one_per_line(listed: Vec<String>, total: usize) -> String {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PrimvarFault {
-    /// An earlier primvar has its name.
+    /// An earlier primvar has the same name.
     RepeatedName,
-    /// There are no numbers in a value, or more than four.
+    /// A value has no numbers, or more than four.
     Width {
         /// The numbers in a value.
         width: usize,
@@ -280,7 +280,7 @@ pub enum PrimvarFault {
         found: usize,
         /// How many there should be.
         needed: usize,
-        /// Whether there should be one for every corner; else for every vertex.
+        /// True if there should be one for every corner; false if for every vertex.
         corners: bool,
     },
     /// A corner has a value that does not exist.
@@ -374,7 +374,7 @@ impl Names for LibraryNumbers {
     }
 }
 
-/// The names of the first few of `items`, and how many follow.
+/// The names of the first few of `items`, and the number of the others.
 pub(super) fn list<T>(items: &[T], name: impl Fn(&T) -> String) -> String {
     /// Enough to find the place; a pole may have thousands.
     const SHOWN: usize = 5;

@@ -18,9 +18,9 @@
 //!  drop unused    vertices in no face are deleted
 //! ```
 //!
-//! They are made in this order. Nothing else is changed: positions stay where they are, tags and
-//! primvars go with their vertices, faces and corners. A one-sided surface stays as it is, and so
-//! does every fault that is not named here.
+//! The repairs are made in this order. Nothing else changes: positions stay where they are, tags
+//! and primvars go with their vertices, faces and corners. A one-sided surface stays as it is, and
+//! so does every fault that is not named here.
 
 use super::fault::list;
 use super::{CheckError, FaceId, Mesh, MeshError, Names, VertexId};
@@ -36,7 +36,7 @@ use draft::Draft;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Repairs {
     /// Merge vertices that are not further apart than this, in the units of the mesh; 0 merges
-    /// those at the same place. Repeated corners of a face are joined.
+    /// vertices at the same place. Repeated corners of a face are joined.
     pub merge: Option<f64>,
     /// Flip faces that disagree with most of their piece.
     pub flip: bool,
@@ -49,7 +49,7 @@ pub struct Repairs {
 /// A mesh after repairs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repaired {
-    /// The mesh; not checked, as it can have other faults.
+    /// The mesh. It is not checked, as it can have other faults.
     pub mesh: Mesh,
     /// What was done, in order; empty if there was nothing to do.
     pub changes: Vec<Change>,
@@ -57,7 +57,7 @@ pub struct Repaired {
     pub obstacles: Vec<Obstacle>,
 }
 
-/// What was done to a mesh, in its numbers from before the repairs.
+/// What was done to a mesh, in the numbers that it had before the repairs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Change {
@@ -143,7 +143,7 @@ fn count(count: usize, one: &str, many: &str) -> String {
 pub enum Obstacle {
     /// A piece is one-sided, as a Moebius strip is: whichever faces are flipped, some disagree.
     OneSided {
-        /// The lowest face of the piece, in the numbers from before the repairs.
+        /// The lowest face of the piece, in the numbers before the repairs.
         face: FaceId,
         /// The number of its faces.
         num_faces: usize,
@@ -162,8 +162,8 @@ impl Obstacle {
     }
 }
 
-/// Makes `repairs` on a copy of `mesh`. Time is linear in its size, apart from sorting; for
-/// merging as long as few vertices that stay are within the distance of each other.
+/// Makes `repairs` on a copy of `mesh`. Time is linear in its size, apart from sorting; merging is
+/// linear if few vertices remain within a few distances of each other.
 ///
 /// # Errors
 ///
@@ -201,8 +201,8 @@ pub fn fix(mesh: &Mesh, repairs: &Repairs) -> Result<Repaired, CheckError> {
     Ok(Repaired { mesh, changes, obstacles })
 }
 
-/// What the repairs rely on: corners of vertices that exist, and numbers of 31 bits, so that
-/// every corner can get a vertex of its own.
+/// Checks what the repairs rely on: every corner is at a vertex that exists, and numbers have 31
+/// bits, so that every corner can get a vertex of its own.
 fn check_numbers(mesh: &Mesh) -> Result<(), CheckError> {
     const LIMIT: usize = i32::MAX as usize;
     let num_vertices = mesh.positions.len();

@@ -1,10 +1,10 @@
 //! Isolation: which piece of surface covers which part of every face.
 //!
-//! A face of quads is a bi-3 patch if its four corners are regular: inner vertices of valence 4,
-//! or on a regular crease, or corners of one face ([`Fan::is_regular`]). Any other vertex is
+//! A quad is a bi-3 patch if its four corners are regular: inner vertices of valence 4,
+//! vertices on a regular crease, or corners of one face ([`Fan::is_regular`]). Any other vertex is
 //! *isolated* at the refinement level at which nothing at it changes any more and two rings of
-//! faces around it are regular; then it is an extraordinary point and the faces around it are its
-//! sectors. What is neither is refined, locally:
+//! faces around it are regular. Then it is an extraordinary point and the faces around it are its
+//! sectors. Faces that are neither patches nor sectors are refined, locally:
 //!
 //! ```text
 //!   face with one isolated      face whose corner is isolated     a quad beside an n-gon:
@@ -16,12 +16,12 @@
 //!   e-----------+               e-----+-----+                     +-----+-----+
 //! ```
 //!
-//! Without semi-sharp features two levels are enough, one if there are quads only. A semi-sharp
-//! edge or vertex takes as many more as it is sharp, at most ten; its faces are refined along it,
-//! and when it has become smooth the points around it are those of a smooth surface.
+//! Without semi-sharp features two levels are enough, one if there are quads only. An edge or
+//! vertex of sharpness s takes s levels more, at most ten. Its faces are refined along it; when it
+//! has become smooth, the points around it are points of a smooth surface.
 //!
 //! All levels describe one surface, so pieces of different levels join as smoothly as pieces
-//! of the same. Topology and sharpness only: nothing here knows positions.
+//! of one level. This module needs topology and sharpness only, no positions.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -39,7 +39,7 @@ use super::{
 pub enum Place {
     /// A vertex.
     Vertex(VertexId),
-    /// The centre of a face with other than four corners.
+    /// The centre of a face that does not have four corners.
     FaceCentre(FaceId),
 }
 
@@ -52,18 +52,18 @@ pub struct Extraordinary {
     pub place: Place,
     /// The number of edges that meet there.
     pub valence: usize,
-    /// The faces that it concerns.
+    /// The faces around it.
     pub fan: Fan,
     /// The level of refinement at which it is isolated.
     pub level: usize,
-    /// Whether some face of the fan has a surface; if not, nothing is known of the level.
+    /// Whether some face of the fan has a surface; if not, the level is unknown.
     pub is_covered: bool,
-    /// Whether there was something semi-sharp at the vertex, which has gone.
+    /// Whether the vertex or an edge at it was semi-sharp and has become smooth.
     pub was_semi_sharp: bool,
 }
 
-/// All extraordinary points, vertices first, each kind in the order of its numbers; those without
-/// a surface around them, which only their valence makes extraordinary, at the end.
+/// All extraordinary points: vertices first, each kind in the order of its numbers. Points without
+/// a surface around them come last; only their valence makes them extraordinary.
 pub fn extraordinary_points(cage: &Cage, boundary: BoundaryRule) -> Vec<Extraordinary> {
     let plan = Plan::new(cage.topology(), cage.tags(), boundary, BTreeMap::new());
     let mut points = plan.points;
@@ -101,8 +101,8 @@ pub fn is_omitted(cage: &Cage, boundary: BoundaryRule, face: FaceId) -> bool {
     omitted_faces(cage, boundary).binary_search(&face).is_ok()
 }
 
-/// The faces without a surface, in order: holes, and under the rule "none" those with a vertex on
-/// the boundary, unless both boundary edges there have been made infinitely sharp.
+/// The faces without a surface, in order: holes, and under the rule "none" faces with a vertex on
+/// the boundary, unless tags make both boundary edges there infinitely sharp.
 pub fn omitted_faces(cage: &Cage, boundary: BoundaryRule) -> Vec<FaceId> {
     omitted(cage.topology(), cage.tags(), boundary)
 }
@@ -120,7 +120,7 @@ fn omitted(topology: &Topology, tags: &Tags, boundary: BoundaryRule) -> Vec<Face
     omitted
 }
 
-/// Whether each vertex is at an edge of the boundary that no tag makes infinitely sharp.
+/// For each vertex, whether it is at an edge of the boundary that no tag makes infinitely sharp.
 fn open_vertices(topology: &Topology, tags: &Tags) -> Vec<bool> {
     let mut is_sharp = vec![false; topology.half_edges().len()];
     for crease in &tags.creases {
@@ -150,7 +150,7 @@ pub(crate) enum Piece {
         point: u32,
         /// The sector.
         sector: u32,
-        /// The corner of the piece at which the point is.
+        /// The corner of the piece at which the point lies.
         corner: u8,
     },
     /// Four pieces with consecutive numbers, at the corners in order.
@@ -179,11 +179,11 @@ pub(crate) struct Plan {
     pub(crate) points: Vec<Extraordinary>,
     /// The half-edge of its level that leaves each point in front of sector 0.
     pub(crate) first_half_edges: Vec<HalfEdgeId>,
-    /// The sectors of each point, without those in omitted faces.
+    /// The sectors of each point, without sectors in omitted faces.
     pub(crate) sectors: Vec<Vec<SectorPlace>>,
     /// The first parametric quad of every face, and the number of all quads.
     pub(crate) first_quads: Vec<u32>,
-    /// All pieces, those of the parametric quads first.
+    /// All pieces; the pieces that are whole parametric quads come first.
     pub(crate) pieces: Vec<Piece>,
     pub(crate) nets: Vec<RegularNet>,
     pub(crate) omitted: Vec<FaceId>,
@@ -241,9 +241,9 @@ fn topology_of<'a>(cage: &'a Topology, levels: &'a [Level]) -> &'a Topology {
     levels.last().map_or(cage, Level::topology)
 }
 
-/// The faces to refine so that all is known around the children of `faces`: those that share a
-/// vertex with them, since control nets reach one face further; and one face more if the
-/// sharpness of edges depends on their neighbours.
+/// The faces to refine so that all is known around the children of `faces`: the faces that share a
+/// vertex with them, since control nets reach one face further. If the sharpness of edges depends
+/// on their neighbours, one face more.
 fn neighbourhood(
     topology: &Topology,
     faces: impl Iterator<Item = FaceId>,
@@ -287,7 +287,7 @@ enum CornerState {
     Regular,
     /// The sector of a point.
     Isolated { point: u32, sector: u32 },
-    /// To be refined.
+    /// The face must be refined.
     Unsettled,
 }
 
@@ -326,7 +326,7 @@ impl Planner {
         }
     }
 
-    /// Covers what needs no refinement; returns the other faces.
+    /// Covers the faces that need no refinement; returns the others.
     fn cover_cage(&mut self, features: &Features, omitted: &[FaceId]) -> Vec<Tile> {
         let faces = features.topology.faces();
         let mut split = Vec::new();
@@ -344,7 +344,7 @@ impl Planner {
         split
     }
 
-    /// Covers what needs no refinement; returns the other tiles.
+    /// Covers the tiles that need no refinement; returns the others.
     fn cover_tiles(
         &mut self,
         features: &Features,
@@ -386,7 +386,7 @@ impl Planner {
         children
     }
 
-    /// Covers a tile with one piece, if that can be.
+    /// Covers a tile with one piece, if that is possible.
     fn cover(&mut self, features: &Features, levels: &[Level], tile: Tile) -> bool {
         let t = features.topology;
         let mut isolated = None;
@@ -411,7 +411,7 @@ impl Planner {
         true
     }
 
-    /// What is known of the corner that `h` leaves, found once for all of its fan.
+    /// What is known of the corner that `h` leaves; it is found once for the whole fan.
     fn corner(&mut self, features: &Features, levels: &[Level], h: HalfEdgeId) -> CornerState {
         if let Some(&known) = self.corners.get(&h) {
             return known;
@@ -501,7 +501,7 @@ impl Planner {
     }
 }
 
-/// Where a vertex of the last of these levels comes from.
+/// Where a vertex of the last level comes from.
 ///
 /// Vertices that refinement puts on edges and into quads are regular as soon as nothing at them
 /// is semi-sharp, so a point comes from a vertex of the cage or from an n-gon.

@@ -1,10 +1,10 @@
-//! What a fault is about, as data: a word for its kind, and the vertices, edges and faces that a
-//! front end can mark in its view of the mesh.
+//! A fault as data: a word for its kind, and the vertices, edges and faces that a front end can
+//! mark in its view of the mesh.
 
 use super::{FaceId, MeshError, Tagged, VertexId, Warning};
 
-/// Vertices, edges and faces of a mesh, to be marked. They need not exist: a fault may be just
-/// that.
+/// Vertices, edges and faces of a mesh, to be marked. They need not exist: a fault may be that one
+/// does not exist.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Marks {
     /// The vertices.

@@ -1,8 +1,8 @@
 //! The cage: positions and faces as a file says them, and the checked form of them.
 //!
-//! [`Mesh`] is what was read: nothing about it is promised. [`Cage`] is a mesh that passed
+//! [`Mesh`] is what was read; it may have any fault. [`Cage`] is a mesh that passed
 //! the checks of [`Cage::new`]: an orientable surface, possibly with boundary, whose connectivity
-//! ([`Topology`]) can be walked without a case that fails. Everything behind the cage is
+//! ([`Topology`]) can be walked without a case that fails. All code behind the cage is
 //! total: it cannot meet bad input any more.
 
 mod check;
@@ -143,7 +143,7 @@ impl Faces {
         &self.corners
     }
 
-    /// Where the corners of `face`, which there is, stand in [`Faces::all_corners`].
+    /// Where the corners of `face` stand in [`Faces::all_corners`]; `face` must exist.
     pub(crate) fn corner_range(&self, face: FaceId) -> std::ops::Range<usize> {
         self.offsets[face.index()]..self.offsets[face.index() + 1]
     }

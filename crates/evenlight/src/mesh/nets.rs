@@ -5,7 +5,8 @@ use super::{HalfEdgeId, Topology, VertexId};
 use crate::point::{add_scaled, scale};
 
 /// The control net of a regular piece: the refinement level and the 4x4 vertices, the index along
-/// v fastest. Beyond a sharp edge there is no vertex, but the mirror image of the row behind.
+/// v fastest. Beyond a sharp edge there are no vertices; the mirror image of the row behind the
+/// edge stands for them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RegularNet {
     pub(crate) level: u8,
@@ -18,7 +19,7 @@ pub(crate) struct RegularNet {
 impl RegularNet {
     /// The net of the face of `h`, which leaves its corner 0.
     ///
-    /// Each of the four faces that touch a corner of the face only gives four nodes:
+    /// Four faces touch the face in a corner only; each of them gives four nodes:
     ///
     /// ```text
     ///  v ^  3--7-11-15
@@ -96,7 +97,7 @@ impl RegularNet {
     }
 
     /// Enters the nodes beyond sharp edges. With p(-1) = 2 p(0) - p(1) the second derivative
-    /// across the edge is zero there, which is what refining with the crease rule leads to.
+    /// across the edge is zero there, as it is after refinement with the crease rule.
     #[cold]
     fn mirror<const N: usize>(&self, p: &mut [[f64; N]; 16]) {
         let is_sharp = |k: usize| self.sharp_sides >> k & 1 == 1;
@@ -125,7 +126,7 @@ impl RegularNet {
 }
 
 impl RegularNet {
-    /// Moves the weights of nodes beyond sharp edges to those that they are the mirror images of.
+    /// Moves the weights of nodes beyond sharp edges to the nodes whose mirror images they are.
     pub(crate) fn fold<const R: usize>(&self, w: &mut [[f64; R]; 16]) {
         let is_sharp = |k: usize| self.sharp_sides >> k & 1 == 1;
         let mut fold = |from: usize, to: usize, next: usize| {

@@ -1,8 +1,8 @@
 //! The cage of a face-varying primvar: the faces of the positions' cage, with vertices of its own.
 //!
-//! Texture coordinates are themselves the control net of a Catmull-Clark surface. Corners of a
-//! vertex are one vertex of that net while no seam lies between them; an edge is a *seam* if its
-//! two faces have different values at one of its ends. Seams are boundaries:
+//! Texture coordinates are themselves the control net of a Catmull-Clark surface. Corners at one
+//! vertex of the cage are one vertex of that net if no seam lies between them. An edge is a *seam*
+//! if its two faces have different values at one of its ends. Seams are boundaries of the net:
 //!
 //! ```text
 //!   positions         values: a seam from the right that ends in d (a dart)
@@ -166,7 +166,8 @@ impl Splitter<'_> {
         self.values[h.index()]
     }
 
-    /// Whether the faces of the edge of `h` differ at one of its ends, or there is one only.
+    /// Whether the two faces of the edge of `h` have different values at one of its ends, or there
+    /// is one face only.
     fn is_seam(&self, h: HalfEdgeId) -> bool {
         let Some(twin) = self.topology.twin(h) else { return true };
         let next = |h| self.topology.next(h);
@@ -191,7 +192,7 @@ impl Splitter<'_> {
                     fan.inner.push(self.edge_sharpness[h.index()]);
                 }
                 _ => {
-                    // A ring without a seam closes at its first edge.
+                    // Faces around a vertex without a seam close at their first edge.
                     let inner = if k == 0 && seam.is_none() {
                         vec![self.edge_sharpness[h.index()]]
                     } else {
@@ -255,9 +256,9 @@ impl Splitter<'_> {
             }
     }
 
-    /// The semi-sharp edges at `v` that are not of fan `own`, which is so sharp itself. Beside a
-    /// fan with semi-sharp edges, which is a corner for some refinements, one without is a corner
-    /// for as long; but what is sharp itself depends on nothing else.
+    /// The semi-sharp edges at `v` that do not belong to fan `own`, whose own sharpness is given. A
+    /// fan with semi-sharp edges is a corner for some refinements, and a fan without beside it is a
+    /// corner for as long. But a fan that is sharp itself does not depend on others.
     fn beyond(&self, v: VertexId, fans: &[Fan], own: usize, sharpness: f64) -> Beyond {
         let depends = self.has_dependence()
             && fans.len() == 2

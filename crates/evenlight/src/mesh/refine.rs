@@ -113,7 +113,7 @@ impl Level {
         sharpness.refined(edges, vertices.collect(), beyond.collect())
     }
 
-    /// Where this part ends and the surface does not, sharpness is unknown.
+    /// Where this part ends and the surface goes on, sharpness is unknown.
     fn mark_cuts(&self, coarse: &Topology, edges: &mut [f64]) {
         let t = &self.topology;
         for h in t.half_edges().filter(|&h| t.twin(h).is_none()) {
@@ -130,8 +130,8 @@ impl Level {
     /// The values of the refined vertices, from those of the coarse mesh: positions, or whatever
     /// goes by the same rules.
     ///
-    /// If the coarse mesh is itself a refined part, what would need the faces beyond its end is
-    /// NaN, to be noticed if ever it were used.
+    /// The coarse mesh may be a refined part itself. Then values that depend on the faces beyond
+    /// its end are NaN, so that nobody uses them unnoticed.
     pub(crate) fn values<const N: usize>(
         &self,
         coarse: &Topology,
@@ -142,19 +142,19 @@ impl Level {
         self.origins.iter().map(|&origin| masks.of(origin)).collect()
     }
 
-    /// The weights of coarse vertices in a refined vertex. What would need the faces beyond the end
-    /// of a refined part has weights that are NaN.
+    /// The weights of coarse vertices in a refined vertex. If the vertex depends on faces beyond
+    /// the end of a refined part, its weights are NaN.
     pub(crate) fn mask(&self, coarse: &Topology, sharpness: &Sharpness, v: VertexId) -> Mask {
         let unit = |v: VertexId| Mask { terms: vec![(v, 1.0)] };
         Masks { coarse, sharpness, at: unit }.of(self.origin(v))
     }
 }
 
-/// What refinement takes means of.
+/// The numbers that refinement averages: values, or weights of values.
 pub(crate) trait Blended: Sized {
     /// Nothing.
     fn zero() -> Self;
-    /// What is not known, of a vertex that itself is `at`.
+    /// An unknown number, for a vertex that itself is `at`.
     fn unknown(at: Self) -> Self;
     /// Everything multiplied or divided by a number.
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
@@ -182,7 +182,7 @@ impl<const N: usize> Blended for [f64; N] {
     }
 }
 
-/// The weights of coarse vertices in a refined one; those of a vertex add up.
+/// The weights of coarse vertices in a refined one; the weights of one vertex add up.
 #[derive(Clone, Debug)]
 pub(crate) struct Mask {
     pub(crate) terms: Vec<(VertexId, f64)>,
@@ -307,8 +307,8 @@ impl<V: Blended, F: Fn(VertexId) -> V> Masks<'_, F> {
         }
         let ends = [self.coarse.origin(h), self.coarse.target(h)];
         let middle = mean(ends.map(|v| self.at(v)));
-        // Averaging may keep both halves sharp, though the edge is below 1; or end one of them,
-        // though it is above: then OpenSubdiv goes beyond the middle, and so do we.
+        // Averaging may keep both halves sharp, though the edge has sharpness below 1, or make one
+        // half smooth, though it is above 1: then OpenSubdiv goes beyond the middle, and so do we.
         let stays = || ends.iter().all(|&v| self.sharpness.child_edge(self.coarse, h, v) > 0.0);
         if stays() {
             return middle;

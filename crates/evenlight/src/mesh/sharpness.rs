@@ -1,7 +1,7 @@
 //! The sharpness of the edges and vertices of a mesh, and how it falls under refinement.
 //!
-//! The rules are those of OpenSubdiv, which are those of [DKT98] with Chaikin's averaging added
-//! and the boundary joined in as an infinitely sharp crease:
+//! The rules are the same as in OpenSubdiv: the rules of [DKT98], with Chaikin's averaging and
+//! with the boundary as an infinitely sharp crease:
 //!
 //! | edges that are sharp at a vertex | its rule |
 //! | --- | --- |
@@ -15,7 +15,7 @@
 //! [`INFINITELY_SHARP`] on it stays. Where a rule ends between two levels, the old and the new rule
 //! are blended by what was left of the sharpness.
 //!
-//! All this is in single precision, as in OpenSubdiv, or surfaces would differ by up to 1e-8.
+//! All this is in single precision, as in OpenSubdiv; else surfaces would differ by up to 1e-8.
 
 use std::collections::BTreeMap;
 
@@ -34,8 +34,8 @@ pub(crate) struct Sharpness {
     beyond: BTreeMap<VertexId, Beyond>,
 }
 
-/// Semi-sharp edges of the cage at a vertex of a face-varying primvar that are not the primvar's
-/// there: those between faces beyond a seam, and the seams themselves.
+/// Semi-sharp edges of the cage at a vertex of a face-varying primvar that are no edges of the
+/// primvar there: edges between faces beyond a seam, and the seams themselves.
 ///
 /// ```text
 ///         :          v, below the seam ======, has one edge of the primvar, w;
@@ -46,20 +46,20 @@ pub(crate) struct Sharpness {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Beyond {
-    /// The sharpness of those that keep the vertex a corner while any of them is sharp.
+    /// The sharpness of the edges that keep the vertex a corner while any of them is sharp.
     pub(crate) holding: Vec<f64>,
-    /// That of the others.
+    /// The sharpness of the other edges.
     pub(crate) apart: Vec<f64>,
-    /// Whether nothing holds the vertex any more since the last refinement, but a seam was still
-    /// semi-sharp: then OpenSubdiv keeps it a corner once more, and we do the same.
+    /// Whether the vertex lingers: since the last refinement no edge holds it any more, but a seam
+    /// was still semi-sharp. Then OpenSubdiv keeps it a corner once more, and we do the same.
     pub(crate) lingers: bool,
 }
 
-/// The sharpness of a vertex that lingers: it ends in the next refinement, and weighs nothing.
+/// The sharpness of a vertex that lingers: it ends in the next refinement, and its weight is 0.
 const LINGERING: f64 = 1e-30;
 
 impl Beyond {
-    /// As the vertex is a corner for as long as it is held, so sharp is it.
+    /// How sharp the vertex is: it is a corner for as long as an edge holds it.
     pub(crate) fn vertex(&self) -> f64 {
         let lingering = if self.lingers { LINGERING } else { 0.0 };
         self.holding.iter().copied().fold(lingering, f64::max)
@@ -114,12 +114,12 @@ impl Sharpness {
         Self { method: tags.crease_method, edges, vertices, beyond: BTreeMap::new() }
     }
 
-    /// With the edges beyond the seams of a primvar.
+    /// Adds the edges beyond the seams of a primvar.
     pub(crate) fn with_beyond(self, beyond: BTreeMap<VertexId, Beyond>) -> Self {
         Self { beyond, ..self }
     }
 
-    /// Whether the surface is closed and nothing of it sharp.
+    /// Whether the surface is closed and has no sharp edge or vertex.
     pub(crate) fn is_empty(&self) -> bool {
         self.edges.is_empty()
     }
@@ -169,7 +169,7 @@ impl Sharpness {
     }
 
     /// Calls `mark` with every vertex that is sharp, at the end of an edge that is sharp, or where
-    /// a refined part of a surface ends (but of a closed smooth surface).
+    /// a refined part of a surface ends; with none, if the surface is closed and smooth.
     pub(crate) fn for_each_touched(&self, topology: &Topology, mut mark: impl FnMut(VertexId)) {
         for (h, _) in topology.half_edges().zip(&self.edges).filter(|&(_, &s)| s != 0.0) {
             mark(topology.origin(h));
@@ -193,7 +193,7 @@ impl Sharpness {
         self.children(spokes.iter().map(|spoke| spoke.sharpness), spokes, v)
     }
 
-    /// What edges at `v` become, of which `spokes` are the primvar's.
+    /// What edges at `v` become; `spokes` are the edges of the primvar.
     fn children(&self, of: impl Iterator<Item = f64>, spokes: &[Spoke], v: VertexId) -> Vec<f64> {
         if self.method == CreaseMethod::Uniform {
             return of.map(lowered).collect();
@@ -209,8 +209,8 @@ impl Sharpness {
         own.chain(self.beyond.get(&v).into_iter().flat_map(Beyond::all)).collect()
     }
 
-    /// How what makes `v` itself a corner changes: its sharpness, or that of the edges that hold
-    /// it.
+    /// How the sharpness changes that makes `v` itself a corner: its own, or the sharpness of the
+    /// edges that hold it.
     pub(crate) fn vertex_changes(&self, topology: &Topology, v: VertexId) -> Vec<[f64; 2]> {
         match (self.beyond.get(&v), self.child_beyond(topology, v)) {
             (Some(_), Some(then)) if then.lingers => vec![[self.vertex(v), LINGERING]],
@@ -277,8 +277,8 @@ fn chaikin(sharpness: f64, all: &[f64]) -> f64 {
     lowered(f64::from(0.75 * own + 0.25 * others))
 }
 
-/// The weight of the rule that ends, of a vertex and edges whose sharpness goes from the first to
-/// the second: the mean of what ends, at most 1.
+/// The weight of the rule that ends, for a vertex and edges whose sharpness goes from the first
+/// number to the second: the mean of the sharpness that ends, at most 1.
 pub(crate) fn fraction(changes: impl IntoIterator<Item = [f64; 2]>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for [before, after] in changes {

@@ -1,7 +1,7 @@
-//! What a file says about a cage beyond positions and faces: rules, sharpness, holes, primvars.
+//! What a file says about a cage besides positions and faces: rules, sharpness, holes, primvars.
 //!
-//! Names and meanings are those of OpenSubdiv, so that tags mean here what they mean in the
-//! programs that cages come from.
+//! Names and meanings are the same as in OpenSubdiv, so that tags mean here what they mean in the
+//! programs that make the cages.
 
 use super::{FaceId, VertexId};
 use crate::names::names;
@@ -38,21 +38,21 @@ names! { CreaseMethod, "crease method": Uniform => "uniform", Chaikin => "chaiki
 
 /// Which parts of a face-varying primvar are interpolated linearly instead of smoothly.
 ///
-/// At a vertex the corners with one value are one vertex of the primvar; seams are where values
-/// differ, and they and the cage's boundary are boundaries of the primvar.
+/// At a vertex of the cage the corners with one value are one vertex of the primvar. Seams are
+/// where values differ; seams and the cage's boundary are boundaries of the primvar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FaceVaryingRule {
     /// None: seams are smooth curves, also where a single face has a value.
     None,
-    /// Values that a single face has are sharp.
+    /// A value that only one face has at a vertex is sharp.
     CornersOnly,
-    /// These, all values where three or more meet, and both of two of which one is broken by a
-    /// seam or an infinitely sharp crease. Of two values of which one is sharp for some
-    /// refinements, by creases, the other is so too.
+    /// Sharp are the values of `CornersOnly`, all values where three or more meet, and both of two
+    /// values if a seam or an infinitely sharp crease breaks one of them. If creases make one of
+    /// two values sharp for some refinements, the other is sharp for as long.
     #[default]
     CornersPlus1,
-    /// These, the ends of seams inside the cage (darts), and both of two values of which one is of
-    /// a single face, so that its neighbour has a concave corner.
+    /// Sharp are the values of `CornersPlus1`, the ends of seams inside the cage (darts), and both
+    /// of two values if one belongs to a single face: then its neighbour has a concave corner.
     CornersPlus2,
     /// All seams and boundaries are linear.
     Boundaries,
@@ -69,7 +69,7 @@ names! { FaceVaryingRule, "face-varying rule":
     All => "all",
 }
 
-/// The sharpness from which on an edge or vertex is sharp for ever.
+/// From this sharpness on an edge or vertex is sharp for ever.
 pub const INFINITELY_SHARP: f64 = 10.0;
 
 /// The sharpness of an edge.
@@ -99,26 +99,26 @@ pub struct Tags {
     pub crease_method: CreaseMethod,
     /// The rule for face-varying primvars.
     pub face_varying: FaceVaryingRule,
-    /// Sharp edges; of an edge that is named twice the last counts.
+    /// Sharp edges; if an edge is named twice, the last entry counts.
     pub creases: Vec<Crease>,
-    /// Sharp vertices; of a vertex that is named twice the last counts.
+    /// Sharp vertices; if a vertex is named twice, the last entry counts.
     pub corners: Vec<Corner>,
     /// Faces that take part in refinement but have no surface.
     pub holes: Vec<FaceId>,
 }
 
-/// How the values of a primvar go over a face.
+/// How the values of a primvar are interpolated over a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Interpolation {
     /// One value per vertex, by the basis of the positions.
     Vertex,
     /// One value per vertex, bilinear over every face.
     Varying,
-    /// One value per corner of a face, smooth but where corners of a vertex differ.
+    /// One value per corner of a face, smooth except where the corners of a vertex differ.
     FaceVarying,
 }
 
-/// Values that are carried beside positions: UVs, colours.
+/// Values beside positions: texture coordinates, colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Primvar {
     /// The name, unique among the cage's primvars.

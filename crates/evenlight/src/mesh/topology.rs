@@ -1,4 +1,4 @@
-//! Connectivity as half-edges. Knows no positions.
+//! Connectivity as half-edges, without positions.
 //!
 //! A half-edge is one side of an edge; it belongs to the face on its left and is named by the
 //! corner at which it starts, so half-edges are numbered like the corners of all faces:
@@ -27,8 +27,8 @@ impl HalfEdgeId {
     }
 }
 
-/// A half-edge of a [`Topology`], from which one can walk on; made by [`Topology::get`] and
-/// [`Topology::half_edge_at`].
+/// A half-edge of a [`Topology`]; its methods lead to its neighbours. Made by [`Topology::get`]
+/// and [`Topology::half_edge_at`].
 ///
 /// ```
 /// use evenlight::{Cage, FaceId, Mesh, VertexId};
@@ -73,13 +73,13 @@ impl HalfEdge<'_> {
         self.topology.target(self.id)
     }
 
-    /// The one that follows around its face.
+    /// The next half-edge around its face.
     #[must_use]
     pub fn next(self) -> Self {
         Self { id: self.topology.next(self.id), ..self }
     }
 
-    /// The one that comes before around its face.
+    /// The half-edge before it around its face.
     #[must_use]
     pub fn previous(self) -> Self {
         Self { id: self.topology.previous(self.id), ..self }
@@ -94,12 +94,12 @@ impl HalfEdge<'_> {
 
 const NONE: u32 = u32::MAX;
 
-/// How many vertices, faces and corners there may be; one more could not be told from "none".
+/// The highest number of vertices, faces and corners; one more would be mistaken for `NONE`.
 pub(super) const MAX_COUNT: usize = u32::MAX as usize;
 
 /// The connectivity of an orientable surface mesh, possibly with boundary.
 ///
-/// Holds by construction: every edge has one or two faces, neighbouring faces have the same
+/// By construction every edge has one or two faces, neighbouring faces have the same
 /// orientation, and the faces of every vertex form one fan.
 #[derive(Clone, Debug)]
 pub struct Topology {
@@ -122,10 +122,10 @@ impl Topology {
     ///
     /// # Errors
     ///
-    /// All faces that have fewer than three corners, or corners that are not different and in
-    /// range; if there are none, all places where the faces are not an orientable surface: an edge
-    /// with three faces or more, two neighbours of opposite orientation, a vertex whose faces form
-    /// more than one fan.
+    /// All faces that have fewer than three corners, a repeated corner or one out of range. If
+    /// there are none, all places where the faces are not an orientable surface: an edge with
+    /// three faces or more, two neighbours of opposite orientation, a vertex whose faces form more
+    /// than one fan.
     pub fn build(faces: Faces, num_vertices: usize) -> Result<Self, Vec<MeshError>> {
         let counts = [("vertices", num_vertices), ("corners", faces.all_corners().len())];
         let too_many = counts.into_iter().find(|&(_, count)| count > MAX_COUNT);
@@ -136,7 +136,7 @@ impl Topology {
         if errors.is_empty() { Self::of_checked(faces, num_vertices) } else { Err(errors) }
     }
 
-    /// [`Topology::build`] of faces without faults of their own.
+    /// [`Topology::build`] for faces that have no fault by themselves.
     pub(super) fn of_checked(faces: Faces, num_vertices: usize) -> Result<Self, Vec<MeshError>> {
         let face = faces.ids().flat_map(|f| vec![f; faces.corner_range(f).len()]).collect();
         let twin = vec![NONE; faces.all_corners().len()];
@@ -149,8 +149,8 @@ impl Topology {
         if errors.is_empty() { Ok(topology) } else { Err(errors) }
     }
 
-    /// The same faces over other vertices, cut along edges at whose ends the two faces have
-    /// different ones: what [`Topology::build`] finds by sorting.
+    /// The same faces over other vertices. Edges are cut where the two faces have different
+    /// vertices at an end. The result is the same as from [`Topology::build`], without sorting.
     ///
     /// # Errors
     ///
@@ -257,7 +257,7 @@ impl Topology {
         &self.faces
     }
 
-    /// The number of vertices, those in no face included.
+    /// The number of vertices, vertices in no face included.
     pub fn num_vertices(&self) -> usize {
         self.outgoing.len()
     }

@@ -20,8 +20,8 @@ pub(crate) const CNET_NODES: usize = 6;
 
 /// The node (a,b) of a sector, for -2 <= a,b <= 2; `None` for e itself.
 ///
-/// Beyond a line the neighbour's names are meant: (-a,b) is (b,a) of the next sector, (a,-b) is
-/// (b,a) of the one before.
+/// A node beyond a line has its name in the neighbour: (-a,b) is (b,a) of the next sector, (a,-b)
+/// is (b,a) of the sector before.
 pub(crate) fn cnet_node(a: isize, b: isize) -> Option<NodeRef> {
     match (a, b) {
         (0, 0) => None,
@@ -91,7 +91,7 @@ impl<const N: usize> CNet<N> {
         }
     }
 
-    /// A node seen from sector `s`, e if it is none of a sector.
+    /// A node seen from sector `s`; e if no sector owns the node.
     pub(super) fn node(&self, s: usize, at: Option<NodeRef>) -> [f64; N] {
         let n = self.valence() as isize;
         at.map_or(self.center, |at| {

@@ -69,8 +69,8 @@ impl<const N: usize> DNet<N> {
         self.sectors.len()
     }
 
-    /// The centre that the d-net implies: that of the c-net whose d-net is nearest in the sense
-    /// of least squares [KP23-EG, eq. 4]. `None` if there are no sectors.
+    /// The centre that the d-net implies: the centre of the c-net whose d-net is nearest in the
+    /// sense of least squares [KP23-EG, eq. 4]. `None` if there are no sectors.
     ///
     /// DIFFERENCE: the paper gives the solution for bi-4 in closed form, with a misprint in e_32
     /// (48 (8483 n - 5008) for n > 4); here the 7 x 7 normal equations are solved, for bi-3 too.
@@ -97,11 +97,11 @@ pub enum Spline {
     BiQuartic,
 }
 
-/// A node of a d-net by those of a c-net.
+/// A node of a d-net as weights of the nodes of a c-net.
 type MaskRow = Vec<(Option<NodeRef>, f64)>;
 
 impl Spline {
-    /// The nodes of sector 0 by those of a c-net.
+    /// The nodes of sector 0 as weights of the nodes of a c-net.
     fn rows(self) -> &'static [MaskRow; DNET_NODES] {
         static ROWS: [OnceLock<[MaskRow; DNET_NODES]>; 2] = [const { OnceLock::new() }; 2];
         let row = |k: usize| {
@@ -127,12 +127,12 @@ impl Spline {
     }
 }
 
-/// The weights of the twelve nodes of every sector in the centre of a d-net of valence `n`; they
-/// sum to 1/n.
+/// The centre of a d-net of valence `n`, as weights of the twelve nodes of every sector. The
+/// weights of one sector sum to 1/n.
 ///
-/// Only the means x of the c-net's nodes over all sectors matter (e and six more), and the means
-/// R x of the d-net's, R being the same for all valences. With the centre w^T x the weights are
-/// R (R^T R)^-1 w / n.
+/// Only means over all sectors matter: the means x of the c-net's nodes (e and six more) and the
+/// means R x of the d-net's nodes, where R is the same for all valences. The centre is w^T x, so
+/// the weights are R (R^T R)^-1 w / n.
 fn center_weights(n: usize, spline: Spline) -> [f64; 12] {
     let mut r = [[0.0; 7]; 12];
     for (k, row) in r.iter_mut().enumerate() {

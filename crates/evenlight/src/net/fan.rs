@@ -1,9 +1,9 @@
 //! The shape of a fan: the faces around a vertex between two sharp edges.
 //!
-//! Where a mesh has its fans is found by `mesh::fan`; the control net of one fan, and the rules on
-//! it, depend on nothing but the shape.
+//! `mesh::fan` finds the fans of a mesh. The control net of one fan, and the rules on it, depend on
+//! its shape alone.
 
-/// The shape of a fan that no refinement changes any more.
+/// The shape of a fan. Refinement does not change it any more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Fan {
     /// The number of its faces.
@@ -38,7 +38,7 @@ impl Fan {
     }
 }
 
-/// What rules a vertex.
+/// The kind of rule of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum VertexRule {
     /// The rule of Catmull-Clark for smooth surfaces; also for a single sharp edge (a dart).
@@ -50,7 +50,7 @@ pub enum VertexRule {
 }
 
 impl VertexRule {
-    /// The rule of a vertex of this sharpness with so many sharp edges.
+    /// The rule of a vertex with this sharpness and this number of sharp edges.
     pub(crate) fn of(sharpness: f64, sharp_edges: usize) -> Self {
         match sharp_edges {
             _ if sharpness > 0.0 => Self::Corner,

@@ -26,10 +26,10 @@ pub use fan::{Fan, VertexRule};
 pub use quadratic::Quadratic;
 pub(crate) use quadratic::{Expansion, turned};
 
-/// The highest valence of a point: it keeps a face with a million corners from using up the memory.
+/// The highest valence of a point: a face with a million corners must not use up the memory.
 pub(crate) const MAX_VALENCE: usize = 1024;
 
-/// A node of a net relative to some sector: the number of sectors to go on and the node's
+/// A node of a net seen from some sector: how many sectors further on its own sector is, and its
 /// number within that sector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NodeRef {

@@ -24,7 +24,7 @@ use crate::point::{Point, Vector, add, add_scaled, scale, sub};
 
 /// A quadratic expansion at an extraordinary point, by its coefficients in sector 0.
 ///
-/// Any six points are a quadratic; that the other sectors see the same one is by construction.
+/// Any six points are a quadratic; the coefficients in the other sectors follow from them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadratic<const N: usize = 3> {
     /// q_1 to q_6 of sector 0.

@@ -2,7 +2,7 @@
 
 use super::jet::{FirstJet, Jet, Shape, SurfacePoint};
 
-/// What is wanted at a place of a surface; nothing is computed that the type does not hold.
+/// The answer for a place of a surface. Only the numbers that the type holds are computed.
 ///
 /// | type | |
 /// | --- | --- |
@@ -11,19 +11,19 @@ use super::jet::{FirstJet, Jet, Shape, SurfacePoint};
 /// | [`Jet`] | and second derivatives |
 /// | [`SurfacePoint`] | and unit normal and curvature, N = 3 only |
 ///
-/// The numbers that two of them have in common are the same bits. There are no other
+/// A number that two of these types hold has the same bits in both. There are no other
 /// implementations.
 pub trait Answer<const N: usize = 3>: Copy + Send + Sync + Parts<N> {
     /// NaN everywhere: the answer where there is no surface.
     const NAN: Self;
 }
 
-/// How an answer is made; not to be named outside.
+/// How an answer is made. Users of the library cannot name this trait.
 pub trait Parts<const N: usize = 3> {
     /// The highest order of derivatives that it holds.
     const ORDER: usize;
 
-    /// From derivatives up to that order, and the shape if it is wanted.
+    /// The answer from derivatives up to that order, and from the shape if the answer holds it.
     fn from_parts(jet: Jet<N>, shape: impl FnOnce(&Jet<N>) -> Shape) -> Self;
 
     /// The answer in other parameters: `change` knows what they do to derivatives.

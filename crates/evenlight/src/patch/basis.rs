@@ -14,7 +14,7 @@ pub fn bernstein(d: usize, t: f64) -> Option<BasisJet<{ MAX_DEGREE + 1 }>> {
     (d <= MAX_DEGREE).then(|| bernstein_basis(d, t))
 }
 
-/// [`bernstein`] of a degree that is known to be low enough.
+/// [`bernstein`] for a degree that is known to be low enough.
 pub(crate) fn bernstein_basis(d: usize, t: f64) -> BasisJet<{ MAX_DEGREE + 1 }> {
     let mut values = [0.0; MAX_DEGREE + 1];
     values[0] = 1.0;
@@ -47,7 +47,7 @@ fn second_derivative(d: usize, b: &[f64; MAX_DEGREE + 1]) -> [f64; MAX_DEGREE + 
     )
 }
 
-/// `b[i - back]`, zero in front of the first.
+/// `b[i - back]`; zero in front of the first entry.
 fn at(b: &[f64], i: usize, back: usize) -> f64 {
     if i < back { 0.0 } else { b[i - back] }
 }

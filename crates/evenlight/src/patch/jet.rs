@@ -168,8 +168,8 @@ impl Shape {
     }
 }
 
-/// Sines of angles between derivatives that are rounding: the angle is 0 or pi, as where two edges
-/// of a corner are in one line.
+/// If the sine of the angle between two derivatives is below this, it is rounding: the angle is 0
+/// or pi, as at a corner whose two edges lie on one straight line.
 const PARALLEL: f64 = 1e-12;
 
 /// r_u x r_v at length one, and one divided by its length; NaN if they are parallel or zero.

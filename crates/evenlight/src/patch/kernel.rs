@@ -7,10 +7,10 @@
 //!   p   = sum_j B_j(v) r_j
 //! ```
 //!
-//! Sizes, K = d + 1 coefficients a side of N numbers each, are constants, so that loops are
-//! unrolled and become vector instructions; the order of summation is fixed, so that results are
-//! the same bits everywhere. What is not asked for (derivatives beyond `order`) is left out, and
-//! zero in the result.
+//! The sizes are constants, so that loops are unrolled and become vector instructions: K = d + 1
+//! coefficients on each side, N numbers in each. The order of summation is fixed, so that results
+//! have the same bits everywhere. Derivatives beyond `order` are not computed; they are zero in the
+//! result.
 
 use super::Jet;
 use super::basis::{BasisJet, bernstein_basis};
@@ -61,16 +61,16 @@ impl<const K: usize, const N: usize> Rows<K, N> {
     }
 }
 
-/// A line of a grid in parameters: its number, and the parameter that is constant on it.
+/// A line of a grid of parameters: its number, and the parameter that is constant on it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     pub(crate) number: usize,
     pub(crate) at: f64,
 }
 
-/// [`tensor_jet`] where every line of `us` meets every line of `vs`: `put` gets the numbers of both
-/// and the jet, the same bits as one at a time. What two places of a line have in common is
-/// computed once.
+/// [`tensor_jet`] where every line of `us` meets every line of `vs`. `put` gets the numbers of both
+/// lines and the jet, with the same bits as from [`tensor_jet`]. What the places of one line share
+/// is computed once.
 #[inline(always)]
 pub(crate) fn tensor_grid<const K: usize, const N: usize>(
     order: usize,
@@ -79,7 +79,7 @@ pub(crate) fn tensor_grid<const K: usize, const N: usize>(
     [us, vs]: [&[Line]; 2],
     mut put: impl FnMut(usize, usize, &Jet<N>),
 ) {
-    /// So many bases are kept.
+    /// The number of bases that are kept.
     const KEPT: usize = 16;
     let mut bases = [[[0.0; K]; 3]; KEPT];
     for vs in vs.chunks(KEPT) {

@@ -57,7 +57,7 @@ impl<const N: usize> Patch<N> {
         Ok(Self { degree, coefs })
     }
 
-    /// The patch of coefficients that are known to fit.
+    /// The patch with these coefficients, whose number is known to fit.
     pub(crate) fn of(degree: [usize; 2], coefs: Vec<[f64; N]>) -> Self {
         debug_assert!(degree.into_iter().all(|d| d <= MAX_DEGREE), "{degree:?}");
         debug_assert_eq!(coefs.len(), (degree[0] + 1) * (degree[1] + 1), "{degree:?}");
@@ -75,7 +75,7 @@ impl<const N: usize> Patch<N> {
         (i <= du && j <= dv).then(|| self.at(i, j))
     }
 
-    /// The BB coefficient `b_ij` that there is.
+    /// The BB coefficient `b_ij`, which must exist.
     pub(crate) fn at(&self, i: usize, j: usize) -> [f64; N] {
         self.coefs[i * (self.degree[1] + 1) + j]
     }
@@ -106,7 +106,7 @@ impl<const N: usize> Patch<N> {
     }
 }
 
-/// Why coefficients are not those of a patch.
+/// Why coefficients do not make a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PatchError {
@@ -125,9 +125,9 @@ pub enum PatchError {
         du: usize,
         /// The degree in v.
         dv: usize,
-        /// The coefficients that it has.
+        /// The number of coefficients of such a patch.
         expected: usize,
-        /// The coefficients that there are.
+        /// The number of coefficients that were given.
         found: usize,
     },
 }

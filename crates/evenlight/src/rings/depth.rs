@@ -1,4 +1,4 @@
-//! Which ring has a place, and what is scaled how far there.
+//! Which ring a place lies in, and how numbers are scaled there.
 
 /// The ring of a place (a,b) of a sector other than its centre, and the place in it, as if it were
 /// ring 0.
@@ -41,7 +41,7 @@ pub(crate) fn scaled_up(x: f64, ring: usize, sigma: f64) -> f64 {
     (0..ring).fold(x * OUT_OF_THE_DENORMALS, |x, _| factor * x) / OUT_OF_THE_DENORMALS
 }
 
-/// 2^200: among denormal numbers multiplication by a factor below 3/2 may not change anything.
+/// 2^200. It lifts denormal numbers, where multiplication by a factor below 3/2 may change nothing.
 pub(super) const OUT_OF_THE_DENORMALS: f64 = (1_u128 << 100) as f64 * (1_u128 << 100) as f64;
 
 /// x^k by repeated squaring, in a fixed order of rounding.

@@ -1,11 +1,11 @@
-//! The frame of the limit tangent plane, and how coordinates in it become those of the world.
+//! The frame of the limit tangent plane, and the step from its coordinates to world coordinates.
 
 use crate::patch::{Jet, Shape};
 use crate::point::{Vector, add_scaled, cross, dot, in_space, norm, scale, unit};
 use crate::scheme::Subdominant;
 
-/// Tangents shorter than this part of the net, or closer to parallel, are none: rounding leaves
-/// 1e-16 where they should vanish, and a sound cage stays far above.
+/// Tangents shorter than this part of the net, or closer to parallel, count as zero: rounding
+/// leaves 1e-16 where they should vanish, and a sound cage stays far above.
 const FLATTEST: f64 = 1e-12;
 
 /// Where X, Y and Z point, and how Z shrinks.
@@ -21,7 +21,7 @@ pub(super) struct Frame<const N: usize> {
 pub(super) const HEIGHT: usize = 2;
 
 impl<const N: usize> Frame<N> {
-    /// The axes of space, without a plane.
+    /// The axes of space; there is no tangent plane.
     pub(super) const WORLD: Self = {
         let (mut axes, mut k) = ([[0.0; N]; N], 0);
         while k < N {
@@ -85,7 +85,7 @@ impl<const N: usize> Frame<N> {
     }
 }
 
-/// How the coordinates of a ring become those of the world.
+/// How the coordinates of a ring become world coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RingScale<const N: usize> {
     /// The axes of the frame, the height with its factor zeta.
@@ -93,8 +93,8 @@ pub(super) struct RingScale<const N: usize> {
     pub(super) zeta: f64,
     /// lambda^l, the factor of positions.
     pub(super) sigma: f64,
-    /// The factors of first and second derivatives, which are by a and b: those run sigma^-l times
-    /// as fast.
+    /// The factors of first and second derivatives by a and b. The ring's own parameters run
+    /// sigma^-l times as fast as a and b.
     pub(super) first: f64,
     pub(super) second: f64,
 }

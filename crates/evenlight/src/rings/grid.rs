@@ -1,7 +1,7 @@
-//! Rings on grids of parameters: what places on one line have in common is computed once.
+//! Rings on grids of parameters: what the places on one line share is computed once.
 //!
-//! A sector is cut like its rings, lines of constant a into those of the ring in hand and those
-//! that go on inwards:
+//! A sector is cut like its rings. Lines of constant a either belong to the current ring or go on
+//! inwards; so do lines of constant b:
 //!
 //! ```text
 //!  b ^      inner | outer
@@ -18,8 +18,8 @@ use crate::patch::Answer;
 use crate::patch::kernel::{Line, patch_grid};
 
 impl<const N: usize> Rings<N> {
-    /// [`Rings::eval_as`] where lines of constant a meet lines of constant b, all from 0 to 1:
-    /// `put` gets the numbers of both and the answer, the same bits as one at a time.
+    /// [`Rings::eval_as`] where lines of constant a meet lines of constant b, all from 0 to 1.
+    /// `put` gets the numbers of both lines and the answer, with the same bits as one at a time.
     pub(crate) fn eval_grid<A: Answer<N>>(
         &self,
         s: usize,
@@ -80,7 +80,8 @@ impl<const N: usize> Rings<N> {
         }
     }
 
-    /// The lines of a square by the patches that they cross, with the patches' own parameters.
+    /// The lines of a square, sorted by the patches that they cross, in the patches' own
+    /// parameters.
     fn parts(&self, square: usize, k: usize, lines: &[Line]) -> Vec<Part> {
         let rules = &self.rules.rules;
         let empty = || Part { size: 1.0, lines: Vec::new() };

@@ -1,10 +1,10 @@
 //! Catmull-Clark subdivision as a scheme of rings [CC78], [Stam98].
 //!
 //! The net is the c-net relative to the limit point. The extraordinary vertex e itself is no
-//! part of it: that the limit point is the origin says n^2 e + 4 sum c_6 + sum c_5 = 0, and e
-//! follows. (It also takes the eigenvalue 1 out of the matrix, so that rounding cannot bring it
-//! back.) One refinement gives the nodes (a,b), a,b <= 3, around the next, half as large c-net,
-//! hence three bi-3 patches per sector.
+//! part of it: as the limit point is the origin, n^2 e + 4 sum c_6 + sum c_5 = 0, and e
+//! follows. (This also takes the eigenvalue 1 out of the matrix, so that rounding cannot bring it
+//! back.) One refinement gives the nodes (a,b), a,b <= 3. They hold the next c-net, half as large,
+//! and three bi-3 patches per sector.
 
 use super::rules::{PatchRule, Row, RowBuilder, Rules, Symmetry};
 use crate::net::{CNET_NODES, NodeRef, cnet_node};

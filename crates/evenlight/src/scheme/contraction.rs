@@ -1,9 +1,9 @@
 //! How fast the rings of a scheme contract.
 //!
 //! Catmull-Clark subdivision inserts a knot half way between the extraordinary point and the first
-//! knot line; its rings shrink by an eigenvalue lambda that grows with the valence, from .41 at
-//! valence 3 to .65. With the knot at sigma instead, lambda can be chosen [KP18-Guided, sec. 6.3];
-//! it is the larger root of
+//! knot line. Its rings shrink by an eigenvalue lambda that grows with the valence, from .41 at
+//! valence 3 to .65. If the knot is at sigma instead, lambda can be chosen [KP18-Guided, sec. 6.3].
+//! Then lambda is the larger root of
 //!
 //! ```text
 //!   lambda^2 - sigma (1 + sigma^2 + c (1 - sigma)^2) lambda + sigma^4 = 0,   c = cos(2 pi / n).
@@ -16,8 +16,8 @@ use std::str::FromStr;
 
 use super::{RuleSet, SchemeKind};
 
-/// How fast rings contract. Guided schemes can be made with any contraction, the others have that
-/// of Catmull-Clark subdivision.
+/// How fast rings contract. Guided schemes can have any contraction; the others have the
+/// contraction of Catmull-Clark subdivision.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Contraction {
     /// The subdominant eigenvalue of Catmull-Clark subdivision; rings halve the parameters.
@@ -30,10 +30,10 @@ pub enum Contraction {
 }
 
 impl Contraction {
-    /// Between which lambda can be chosen, ends excluded.
+    /// The limits between which lambda can be chosen, both excluded.
     pub const LIMITS: [f64; 2] = [0.3, 0.7];
 
-    /// The chosen lambda; `None` for that of Catmull-Clark subdivision, which depends on the
+    /// The chosen lambda; `None` for Catmull-Clark's contraction, where lambda depends on the
     /// valence.
     pub fn lambda(self) -> Option<f64> {
         match self {
@@ -43,7 +43,7 @@ impl Contraction {
         }
     }
 
-    /// Itself if lambda is between the limits.
+    /// This contraction, if its lambda is between the limits.
     fn checked(self) -> Result<Self, ContractionError> {
         let [low, high] = Self::LIMITS;
         match self {
@@ -80,7 +80,8 @@ impl FromStr for Contraction {
     }
 }
 
-/// Which rules of a scheme are taken: tables and contraction. Most functions take either alone.
+/// Which rules of a scheme are taken: tables and contraction. Most functions also take one of the
+/// two alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Variant {
     /// The tables of weights.
@@ -118,7 +119,7 @@ pub enum ContractionError {
     /// A text that names no contraction.
     #[error("a contraction is 'cc', 'half' or a number")]
     Unknown,
-    /// Only guided schemes have others than that of Catmull-Clark subdivision.
+    /// Only guided schemes have contractions other than Catmull-Clark's.
     #[error(
         "scheme {} contracts like Catmull-Clark subdivision (cc) only; \
          the schemes guided3 to guided6 can have other contractions",
@@ -128,7 +129,7 @@ pub enum ContractionError {
         /// The scheme.
         scheme: SchemeKind,
     },
-    /// The rules would have to be derived, by code that is not there.
+    /// The rules must be derived, but the library was built without the feature `derive`.
     #[error(
         "contractions other than that of Catmull-Clark subdivision (cc) are derived at run time, \
          for which this program was built without the feature `derive`"

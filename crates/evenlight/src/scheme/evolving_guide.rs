@@ -1,8 +1,8 @@
 //! Evolving-Guide subdivision [KP23-EG].
 //!
-//! The net is the d-net relative to the limit point c_0. Of its next, half as large net the
-//! nodes with i = 0 or j = 0 are regular bi-4 knot insertion (eq. 1); the six nodes nearest to
-//! the centre in each sector follow the rules of Section 5, whose weights are in
+//! The net is the d-net relative to the limit point c_0. The next net is half as large. Its
+//! nodes with i = 0 or j = 0 follow by regular bi-4 knot insertion (eq. 1). The six nodes nearest
+//! to the centre in each sector follow the rules of Section 5, whose weights are in
 //! [`tables`](super::tables). The weight of c_0 drops out, since c_0 is the origin here.
 
 use super::rules::{Row, RowBuilder, Rules, Symmetry};

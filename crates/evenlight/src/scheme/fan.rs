@@ -14,11 +14,11 @@
 //!                      line s
 //! ```
 //!
-//! One refinement gives the nodes up to (3,3), hence three bi-3 patches per sector, and again such
-//! a net. Everything but the rule of c is cubic knot insertion. As for smooth vertices, c is no
-//! node of the rules: it follows from the limit point being the origin. With the left eigenvector w
-//! of eigenvalue 1 that is w c + sum w_k p_k = 0; w is known for creases (1/6, 2/3, 1/6) and
-//! corners (c alone), and iterated for darts.
+//! One refinement gives the nodes up to (3,3), hence three bi-3 patches per sector and the next
+//! such net. All rules except the rule of c are cubic knot insertion. As for smooth vertices, c is
+//! no node of the rules: it follows, since the limit point is the origin. With the left eigenvector
+//! of eigenvalue 1 that is w_c c + sum w_k p_k = 0. The weights are known for creases (1/6, 2/3,
+//! 1/6) and corners (c alone), and found by iteration for darts.
 
 mod fair;
 
@@ -40,15 +40,15 @@ pub(crate) struct FanLimit {
     shape: Fan,
     /// The factor by which nets shrink in each step, in the long run.
     pub(crate) lambda: f64,
-    /// The limit point of a net, the node c being the last.
+    /// The limit point of a net, where the node c is the last.
     point: Row,
     tangents: Tangents,
-    /// The first net of the rules by that of the fan, c being the last node; `None` if it is that
-    /// without c.
+    /// The first net of the rules as weights of the net of the fan, where c is the last node;
+    /// `None` if it is the net of the fan without c.
     first_net: Option<Vec<Row>>,
-    /// Of rules with 2 x 2 patches per square the BB coefficients, by the net, of the patches of
-    /// the hole that do not touch the centre: [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2], in
-    /// halves of it.
+    /// For rules with 2 x 2 patches per square: the BB coefficients of the patches of the hole that
+    /// do not touch the centre, as weights of the net. In half widths of the hole these patches are
+    /// [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2].
     cells: Vec<[Vec<Row>; 3]>,
 }
 
@@ -58,16 +58,16 @@ enum Tangents {
     /// There is none: at a corner of two faces or more, at a sharp vertex, and on creases with four
     /// faces or more on a side, where more than two directions shrink no faster than the crease.
     None,
-    /// Two rows, c being the last node; the normal is the product of the directions.
+    /// Two rows, where c is the last node; the normal is the cross product of the directions.
     Rows([Row; 2]),
     /// The rules have a tangent plane of their own.
     OfRules,
-    /// A single face at a crease: along the crease, and the bend of the crease, or if that is
-    /// straight across the face.
+    /// A single face at a crease. The first direction is along the crease; the second is the bend
+    /// of the crease, or, if the crease is straight, the direction across the face.
     Tip,
 }
 
-/// Directions shorter than this part of the net are none.
+/// Directions shorter than this part of the net count as zero.
 const FLATTEST: f64 = 1e-12;
 
 /// The rules of fans of this shape, with the rows of all sectors.
@@ -99,18 +99,18 @@ impl FanLimit {
         self.shape
     }
 
-    /// The number of nodes of the net, the node c being the last.
+    /// The number of nodes of the net, the node c included.
     pub(crate) fn num_nodes(&self) -> usize {
         2 * self.shape.lines() + 4 * self.shape.faces + 1
     }
 
-    /// The limit point by the nodes, c being the last.
+    /// The limit point as weights of the nodes, where c is the last.
     pub(crate) fn point(&self) -> &Row {
         &self.point
     }
 
-    /// The rows of the two directions that span the tangent plane, c being the last node, the first
-    /// along the crease if there is one; `None` if there are none such.
+    /// The rows of the two directions that span the tangent plane, where c is the last node. The
+    /// first is along the crease if there is one. `None` if there are no such directions.
     pub(crate) fn tangent_rows(&self) -> Option<&[Row; 2]> {
         match &self.tangents {
             Tangents::Rows(rows) => Some(rows),
@@ -118,7 +118,7 @@ impl FanLimit {
         }
     }
 
-    /// A net without c relative to its limit point, with c.
+    /// Adds c to a net that is relative to its limit point.
     pub(crate) fn with_vertex<const N: usize>(&self, nodes: &[[f64; N]]) -> Vec<[f64; N]> {
         let (mut sum, mut own) = ([0.0; N], 1.0);
         for &(k, w) in &self.point {
@@ -131,7 +131,7 @@ impl FanLimit {
         nodes.iter().copied().chain([vertex]).collect()
     }
 
-    /// The limit point of a net, c being its last node.
+    /// The limit point of a net, where c is the last node.
     pub(crate) fn limit_point<const N: usize>(&self, net: &[[f64; N]]) -> [f64; N] {
         let mut sum = net[net.len() - 1];
         let center = sum;
@@ -152,7 +152,7 @@ impl FanLimit {
     }
 
     /// The patches of the hole that do not touch the centre, sector by sector, if the rules have
-    /// such.
+    /// them.
     pub(crate) fn cells<const N: usize>(&self, net: &[[f64; N]]) -> Vec<[Vec<[f64; N]>; 3]> {
         let patch = |rows: &Vec<Row>| rows.iter().map(|row| apply(row, net)).collect();
         self.cells.iter().map(|cells| cells.each_ref().map(patch)).collect()
@@ -191,13 +191,13 @@ fn apply<const N: usize>(row: &Row, net: &[[f64; N]]) -> [f64; N] {
     sum
 }
 
-/// The weights of a row by node, c being the last node.
+/// The weights of a row by node, where c is the last node.
 type Weights = BTreeMap<usize, f64>;
 
 /// The nodes of a fan.
 struct Net {
     shape: Fan,
-    /// The limit point by the nodes, c being the last.
+    /// The limit point as weights of the nodes, where c is the last.
     limit: Weights,
 }
 
@@ -253,7 +253,7 @@ impl Net {
         }
     }
 
-    /// The node (a,-1) of a net of which `at` knows the others.
+    /// The node (a,-1) of a net; `at` gives the other nodes.
     fn beyond_first(
         &self,
         s: isize,
@@ -263,7 +263,7 @@ impl Net {
         if self.has_sharp_line(s) { mirrored(&at(s, a, 0), &at(s, a, 1)) } else { at(s - 1, 1, a) }
     }
 
-    /// The node (-1,b) of a net of which `at` knows the others.
+    /// The node (-1,b) of a net; `at` gives the other nodes.
     fn beyond_last(
         &self,
         s: isize,
@@ -333,7 +333,7 @@ impl Net {
         lines.chain(inner).map(|(s, a, b)| self.refined(s, a, b)).collect()
     }
 
-    /// The row in which c is replaced by the other nodes, the limit point being the origin.
+    /// The row with the other nodes in the place of c, as the limit point is the origin.
     fn eliminate(&self, row: &Weights) -> Row {
         let mut rest = row.clone();
         if let Some(w) = rest.remove(&self.center()) {
@@ -418,7 +418,7 @@ fn knot_insertion(k: isize) -> Vec<(isize, f64)> {
     }
 }
 
-/// By how much a net without symmetries shrinks in a step, after many.
+/// By how much a net without symmetries shrinks in one step, after many steps.
 fn growth(refine: &[Row]) -> f64 {
     let mut net: Vec<f64> = (0..refine.len()).map(|k| 1.0 + (k % 7) as f64).collect();
     let mut factor = 0.5;
@@ -445,8 +445,8 @@ fn tangents(net: &Net, refine: &[Row]) -> Tangents {
 
 /// Along the crease, and the left eigenvector of the fan's first mode across it.
 ///
-/// With theta = pi/f that mode is sin(k theta) on the lines; its eigenvalue is that of a smooth
-/// vertex with 2 pi / n = theta, and the eigenvector follows on the faces, the crease and c.
+/// With theta = pi/f that mode is sin(k theta) on the lines. It has the eigenvalue of a smooth
+/// vertex with 2 pi / n = theta. The eigenvector on the faces, the crease and c follows.
 fn crease_tangents(net: &Net) -> [Row; 2] {
     let f = net.shape.faces;
     let theta = PI / f as f64;

@@ -1,4 +1,4 @@
-//! The schemes: which linear rules make the rings around an extraordinary point.
+//! The schemes: the linear rules that make the rings around an extraordinary point.
 //!
 //! A scheme is a pair of linear maps per valence (module `rules`): net to refined net, and both to
 //! a ring of Bernstein-Bezier patches. Nothing here knows a mesh.
@@ -72,8 +72,8 @@ pub enum RuleSet {
     /// 32.
     #[default]
     Generated,
-    /// As the papers print them, truncated to 5 digits: valences 3 and 5 to 10. None are printed of
-    /// guided and fairness-optimal subdivision.
+    /// As the papers print them, truncated to 5 digits: valences 3 and 5 to 10. No paper prints the
+    /// weights of guided and fairness-optimal subdivision.
     Published,
 }
 
@@ -140,8 +140,8 @@ impl SchemeKind {
         matches!(self, Self::Qas3 | Self::Qas4 | Self::Fair3 | Self::Fair4)
     }
 
-    /// Whether curvature is bounded at extraordinary points, and given there: that of the quadratic
-    /// or of the guide. With `guided6` it is continuous.
+    /// Whether curvature is bounded at extraordinary points, and known there as the curvature of
+    /// the quadratic or of the guide. With `guided6` it is continuous.
     pub fn has_center_curvature(self) -> bool {
         self.has_quadratic() || self.guided_degree().is_some()
     }
@@ -166,7 +166,7 @@ impl SchemeKind {
         }
     }
 
-    /// What the scheme's nets are control points of; `None` for Catmull-Clark and guided
+    /// The splines whose control points are the scheme's nets; `None` for Catmull-Clark and guided
     /// subdivision, which work on c-nets.
     pub fn spline(self) -> Option<Spline> {
         match self {
@@ -228,5 +228,5 @@ impl SchemeKind {
 const TABULATED_VALENCE: usize = 16;
 const PUBLISHED_VALENCE: usize = 10;
 
-/// Catmull-Clark has rules for every valence that there is.
+/// Catmull-Clark has rules for every valence.
 pub(crate) const MAX_CATMULL_CLARK_VALENCE: usize = MAX_VALENCE;

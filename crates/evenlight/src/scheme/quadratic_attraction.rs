@@ -2,10 +2,10 @@
 //! [KP23-QAS].
 //!
 //! **QAS4** refines a d-net together with a quadratic q at the centre. Nodes with i = 0 or j = 0
-//! are regular; the six others per sector are weights kappa of the sector's L-net plus tau of
+//! are regular; the six others per sector have weights kappa on the sector's L-net and tau on
 //! its q_2..q_6 (eq. 6; on a line the mean of both sides, eq. 7). q itself is only scaled
-//! down by lambda (eq. 2): its linear terms by lambda, its quadratic ones by lambda^2. As the rest
-//! dies faster than lambda^2, q is what the surface tends to, and curvature stays bounded.
+//! down by lambda (eq. 2): its linear terms by lambda, its quadratic terms by lambda^2. As the rest
+//! dies faster than lambda^2, the surface tends to q, and curvature stays bounded.
 //!
 //! **QAS3** is the same in another basis: T takes the d-net of a bi-4 spline to that of a bi-3
 //! spline on the half-step grid with the same border, so a step is T (QAS4) T^-1, its regular
@@ -46,7 +46,7 @@ pub(crate) fn fair_rules(n: usize, spline: Spline) -> Option<Rules> {
     Some(composed(n, spline, Bases::new(n, Spline::BiQuartic), &weights))
 }
 
-/// The rules with a quadratic from weights on the nets that `bases` lead to.
+/// The rules with a quadratic, from weights on the nets to which `bases` lead.
 fn composed(n: usize, spline: Spline, bases: Bases, weights: &QasWeights) -> Rules {
     let empty = RowBuilder::new(n, NODES);
     let step = quartic_step(n, weights);
@@ -219,11 +219,11 @@ fn turned_weights(c: f64, [a, b, uu, uv, vv]: &[[f64; 5]; 5]) -> [[f64; 5]; 5] {
     ]
 }
 
-/// The change between the d-net of a scheme and that of bi-4 splines, row by row: T and its
-/// inverse for bi-3 (Section 3), nothing for bi-4.
+/// The change between the d-net of a scheme and the d-net of bi-4 splines, row by row: T and its
+/// inverse for bi-3 (Section 3), the identity for bi-4.
 ///
-/// Tensor products of: even indices stay, odd ones become (1,6,1)/8 of themselves and their
-/// neighbours; inverse (-1,8,-1)/6.
+/// Tensor products of a mask: even indices stay, odd indices become (1,6,1)/8 of themselves and
+/// their neighbours; inverse (-1,8,-1)/6.
 struct Bases {
     valence: usize,
     to_own: Vec<Row>,

@@ -11,8 +11,8 @@
 //!         3n patches        3n patches                 ring 1, ring 2, ...
 //! ```
 //!
-//! The maps commute with turning by one sector, so a row is written for sector 0 only; but for fans
-//! ([`Symmetry`]).
+//! The maps commute with turning by one sector, so a row is written for sector 0 only. Fans are an
+//! exception ([`Symmetry`]).
 
 use crate::angle::sector_cosine;
 use crate::net::{self, CNET_NODES, CNet, Expansion, NodeRef};
@@ -28,8 +28,8 @@ pub(crate) type Row = Vec<(usize, f64)>;
 pub(crate) enum Symmetry {
     /// They do: rows and patches are written for sector 0.
     Turning,
-    /// They do not, as those of a fan: rows and patches are written for all sectors, and all nodes
-    /// count as those of one.
+    /// They do not, as the rules of a fan: rows and patches are written for all sectors, and all
+    /// nodes count as nodes of one sector.
     None,
 }
 
@@ -64,15 +64,15 @@ pub(crate) struct Rules {
     pub(crate) split: usize,
     /// The BB coefficients of the patches of sector 0.
     pub(crate) patches: Vec<PatchRule>,
-    /// The part of a scheme that carries a quadratic q along.
+    /// The quadratic q, if the scheme carries one along.
     pub(crate) quadratic: Option<QuadraticPart>,
-    /// The part of a scheme that follows a guide.
+    /// The guide, if the scheme follows one.
     pub(crate) guide: Option<GuidePart>,
 }
 
-/// How a guided scheme begins: the last 35 nodes of every sector are the powers of the guide's
-/// piece relative to the limit point, those of alpha, beta, gamma, delta, epsilon first; the others
-/// are the data along the outer border.
+/// How a guided scheme begins. The last 35 nodes of every sector are the powers of the guide's
+/// piece relative to the limit point; the powers alpha, beta, gamma, delta, epsilon come first. The
+/// other nodes are the data along the outer border.
 #[derive(Clone, Debug)]
 pub(crate) struct GuidePart {
     /// All nodes of sector 0 as weights of the nodes of a c-net, e the last.
@@ -95,8 +95,8 @@ pub(crate) struct Cuts {
 /// The powers of a piece of a guide.
 const GUIDE_NODES: usize = 35;
 
-/// How a scheme with a quadratic q begins: the last five nodes of every sector are alpha, beta,
-/// gamma, delta, epsilon of q in that sector's coordinates, the others the control net.
+/// How a scheme with a quadratic q begins. The last five nodes of every sector are alpha, beta,
+/// gamma, delta, epsilon of q in that sector's coordinates; the others are the control net.
 #[derive(Clone, Debug)]
 pub(crate) struct QuadraticPart {
     /// The default q of sector 0, as rows on the control net (nodes of q not counted).
@@ -108,11 +108,11 @@ pub(crate) struct QuadraticPart {
 /// The corners of the three squares that are nearest to the centre.
 const SQUARES: [[f64; 2]; 3] = [[0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
 
-/// What a patch covers of a or b.
+/// The interval of a or of b that a patch covers.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     start: f64,
-    /// start + size up to rounding; neighbours have exactly one line.
+    /// start + size up to rounding; it is exactly the start of the neighbour.
     end: f64,
     size: f64,
 }
@@ -137,7 +137,7 @@ pub(crate) struct PartParameter {
     pub(crate) size: f64,
 }
 
-/// How a patch is made of the net and its refinement.
+/// How a patch follows from the net and its refinement.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PatchRule {
     /// The part of each BB coefficient (`b` index fastest) that comes from the old net.
@@ -152,7 +152,7 @@ impl Rules {
         self.turns() * self.nodes_per_sector
     }
 
-    /// How many sectors have the same rules but for a turn.
+    /// The number of sectors that have the same rules up to a turn.
     fn turns(&self) -> usize {
         match self.symmetry {
             Symmetry::Turning => self.valence,
@@ -160,7 +160,7 @@ impl Rules {
         }
     }
 
-    /// The number of nodes per sector without those of q or of the guide.
+    /// The number of nodes per sector, without the nodes of q or of the guide.
     pub(crate) fn control_nodes_per_sector(&self) -> usize {
         let others = match (&self.quadratic, &self.guide) {
             (Some(_), _) => 5,
@@ -170,8 +170,8 @@ impl Rules {
         self.nodes_per_sector - others
     }
 
-    /// lambda of a scheme whose nodes number `control_nodes_per_sector()` and the next of every
-    /// sector are alpha and beta, the linear terms at the centre.
+    /// lambda of a scheme that carries the linear terms at the centre along: in every sector node
+    /// number `control_nodes_per_sector()` is alpha and the next node is beta.
     pub(crate) fn lambda_of_linear_terms(&self) -> Option<f64> {
         let of_quadratic = self.quadratic.as_ref().map(|part| part.lambda);
         of_quadratic.or(self.guide.as_ref().map(|part| part.lambda))
@@ -291,7 +291,7 @@ impl Rules {
         if SQUARES[square][k] == 0.0 { 0 } else { self.split }
     }
 
-    /// The patch of the outermost ring that has (a,b), sigma < max(a,b) <= 1 up to rounding.
+    /// The patch of the outermost ring that contains (a,b), sigma < max(a,b) <= 1 up to rounding.
     pub(crate) fn patch_at(&self, at: [f64; 2]) -> usize {
         self.locate(at).which
     }
@@ -358,7 +358,7 @@ impl Rules {
             Symmetry::None => (0, s * self.patches_per_sector()),
             Symmetry::Turning => (s * self.nodes_per_sector, 0),
         };
-        // Not copied in turned order: nets may be large, and a patch is soon made.
+        // The net is not copied in turned order: nets may be large, and a patch is quickly made.
         let node = |net: &[[f64; N]], k: usize| {
             let at = k + by;
             net[if at < net.len() { at } else { at - net.len() }]

@@ -1,9 +1,8 @@
 //! The regular part of the schemes on d-nets: knot insertion and conversion to BB form, for bi-4
 //! C2 splines [KP23-EG, eq. 1, 6] and for uniform bi-3 splines on the half-step grid.
 //!
-//! A refinement halves the d-net. In one variable its new indices -2 to 4 lie on the half-step
-//! grid of the new net, those below 1 in both variables or in one follow from old nodes by knot
-//! insertion:
+//! A refinement halves the d-net. In one variable the new indices -2 to 4 lie on the half-step
+//! grid of the new net. New nodes with an index below 1 follow from old nodes by knot insertion:
 //!
 //! ```text
 //!   old index  0       1       2       3       4

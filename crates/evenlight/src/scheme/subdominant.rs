@@ -12,13 +12,13 @@
 //!
 //! which shrinks by lambda in every step. In space alpha is a pair of vectors a + i b: the
 //! surface approaches the plane that they span, with normal b x a. Taken with respect to that
-//! plane, the height of a net has no such part; it shrinks by about lambda^2.
+//! plane, the height of a net has no part that shrinks by lambda; it shrinks by about lambda^2.
 
 use super::Rules;
 use crate::angle::{cosine, sector_cosine, sine};
 use crate::point::{Vector, add_scaled};
 
-/// The subdominant eigenvalue and what finds the tangential part of a net.
+/// The subdominant eigenvalue, and the vectors that find the tangential part of a net.
 #[derive(Clone, Debug)]
 pub(crate) struct Subdominant {
     /// The eigenvalue, between 0 and 1.
@@ -66,7 +66,7 @@ impl Subdominant {
         Self { lambda, part: Part::Fourier { right: none.clone(), left: none } }
     }
 
-    /// Of rules that do not commute with turning: the nets x and y of the characteristic map, and
+    /// For rules that do not commute with turning: the nets x and y of the characteristic map, and
     /// the rows that find their coefficients.
     pub(crate) fn with_plane(lambda: f64, right: [Vec<f64>; 2], left: [Vec<f64>; 2]) -> Self {
         // 2 (a x - b y) with a = left x / 2, b = -left y / 2.
@@ -125,8 +125,8 @@ impl Subdominant {
         }
     }
 
-    /// The vectors [a, b] such that the part of a net that shrinks by lambda is a x + b y, x and y
-    /// those of the characteristic net.
+    /// The vectors [a, b] such that the part of a net that shrinks by lambda is a x + b y, where x
+    /// and y are the coordinates of the characteristic net.
     pub(crate) fn tangential<const N: usize>(&self, net: &[[f64; N]]) -> [[f64; N]; 2] {
         let [first, second] = self.tangents(net);
         match &self.part {
@@ -173,7 +173,7 @@ impl Subdominant {
 
 /// The net that shrinks by lambda under the attraction of the linear terms of the plane: the fixed
 /// point of x -> A x / lambda. The eigenvalues of the other nodes are below lambda^2, so every step
-/// takes away half of what is missing or more.
+/// takes away at least half of the error.
 fn attracted_net(rules: &Rules, lambda: f64) -> Vec<Vector> {
     let angle = std::f64::consts::TAU / rules.valence as f64;
     // Line 0 along x: line -1 of sector 0 is turned back by one sector.
@@ -291,7 +291,7 @@ mod tests {
                 }
                 let mut rest = net.clone();
                 sub.remove_from_coordinate(0, &mut rest);
-                // With linear terms only those are removed; the rest dies by itself.
+                // If there are linear terms, only they are removed; the rest dies by itself.
                 for _ in 0..if rules.lambda_of_linear_terms().is_some() { 80 } else { 0 } {
                     rest = rules.refine(&rest);
                 }

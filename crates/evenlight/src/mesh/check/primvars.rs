@@ -1,4 +1,4 @@
-//! What primvars are accepted.
+//! Which primvars are accepted.
 
 use std::collections::BTreeSet;
 

@@ -14,7 +14,7 @@ pub(super) struct DraftCorner {
     source: u32,
 }
 
-/// A face that is still there.
+/// A face that is not deleted.
 #[derive(Clone, Debug)]
 pub(super) struct DraftFace {
     /// The face of the mesh.
@@ -36,7 +36,7 @@ impl DraftFace {
         (0..n).map(move |k| [k, (k + 1) % n])
     }
 
-    /// Makes neighbouring corners at one vertex one; whether three are left.
+    /// Joins neighbouring corners at one vertex; says whether three corners are left.
     fn collapse(&mut self) -> bool {
         self.corners.dedup_by_key(|corner| corner.vertex);
         while let [first, .., last] = self.corners[..]
@@ -48,13 +48,13 @@ impl DraftFace {
     }
 }
 
-/// The mesh and what it is to become.
+/// The mesh and the mesh that it becomes.
 pub(super) struct Draft<'a> {
     pub mesh: &'a Mesh,
     pub faces: Vec<DraftFace>,
-    /// The vertex of the mesh from which each vertex of the draft comes; those of the mesh first.
+    /// The vertex of the mesh from which each vertex of the draft comes; old vertices are first.
     pub sources: Vec<u32>,
-    /// Of every vertex of the mesh, what it was merged into; itself if it was not.
+    /// For every vertex of the mesh the vertex that it was merged into, or itself.
     pub merged: Vec<u32>,
     /// Whether a vertex of the draft is left out.
     is_dropped: Vec<bool>,
@@ -75,7 +75,7 @@ impl<'a> Draft<'a> {
         Self { mesh, faces, sources: all.clone(), merged: all, is_dropped }
     }
 
-    /// The faces of which corners that follow each other are at one vertex.
+    /// The faces with two corners in a row at one vertex.
     pub fn faces_with_repeats(&self) -> Vec<FaceId> {
         let vertex = |face: &DraftFace, k: usize| face.corners[k].vertex;
         let repeats = |face: &&DraftFace| {
@@ -84,7 +84,7 @@ impl<'a> Draft<'a> {
         self.faces.iter().filter(repeats).map(|face| face.source).collect()
     }
 
-    /// Moves all corners to what their vertices were merged into; the faces that this deletes.
+    /// Moves all corners to what their vertices were merged into; gives the faces this deletes.
     pub fn apply_merged(&mut self) -> Vec<FaceId> {
         for corner in self.faces.iter_mut().flat_map(|face| &mut face.corners) {
             corner.vertex = self.merged[corner.vertex as usize];
@@ -94,7 +94,7 @@ impl<'a> Draft<'a> {
         }
         let mut deleted = Vec::new();
         self.faces.retain_mut(|face| {
-            // Faces that had too few corners before are for the check to name.
+            // If a face had too few corners before, the check will name it.
             let had_three = face.corners.len() >= 3;
             let is_kept = face.collapse() || !had_three;
             if !is_kept {
@@ -105,7 +105,7 @@ impl<'a> Draft<'a> {
         deleted
     }
 
-    /// A new vertex that is in all but its number what `vertex` is.
+    /// A new vertex: a copy of `vertex` with another number.
     pub fn copy_vertex(&mut self, vertex: u32) -> u32 {
         self.sources.push(self.sources[vertex as usize]);
         self.is_dropped.push(false);
@@ -128,7 +128,7 @@ impl<'a> Draft<'a> {
         (!vertices.is_empty()).then_some(Change::Dropped { vertices })
     }
 
-    /// The mesh that it became.
+    /// The repaired mesh.
     pub fn finish(self) -> Mesh {
         let numbers = self.numbers();
         let kept = || self.sources.iter().zip(&self.is_dropped).filter(|(_, dropped)| !**dropped);
@@ -168,8 +168,8 @@ impl<'a> Draft<'a> {
         primvar
     }
 
-    /// Tags in final numbers: sharp vertices in all their copies, sharp edges in those that are
-    /// edges.
+    /// Tags in final numbers. All copies of a sharp vertex are sharp; of the copies of a sharp edge
+    /// all that are edges.
     fn tags(&self, numbers: &[Option<u32>], faces: &Faces) -> Tags {
         let mut copies: Vec<Vec<u32>> = vec![Vec::new(); self.mesh.positions.len()];
         for (v, number) in numbers.iter().enumerate() {

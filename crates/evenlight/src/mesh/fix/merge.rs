@@ -7,11 +7,11 @@ use super::draft::Draft;
 use crate::mesh::{FaceId, VertexId};
 use crate::point::{Point, norm, sub};
 
-/// Makes every vertex that is not further than `distance` from a lower-numbered one that stays
-/// the lowest such, and corners one that follow each other in a face at one vertex.
+/// Merges every vertex into the lowest-numbered vertex that stays and is not further away than
+/// `distance`. Then corners that follow each other in a face at one vertex become one.
 ///
-/// No vertex moves further than `distance`, and those that stay are further apart. A grid of
-/// that width finds them.
+/// No vertex moves further than `distance`, and the vertices that stay are further apart. A grid of
+/// cells of this width finds the neighbours.
 pub(super) fn merge(draft: &mut Draft, distance: f64) -> Vec<Change> {
     let mut kept: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     let mut pairs = Vec::new();

@@ -6,8 +6,8 @@ use super::draft::Draft;
 use super::{Change, Obstacle};
 use crate::mesh::FaceId;
 
-/// Flips the fewer faces of every piece whose faces disagree; of as many, those that disagree
-/// with the lowest. A piece is what is joined by edges of two faces.
+/// In every piece whose faces disagree, flips the smaller group of faces; if both are equal, the
+/// group without the lowest face. Edges of two faces join the faces of a piece.
 pub(super) fn orient(draft: &mut Draft, obstacles: &mut Vec<Obstacle>) -> Option<Change> {
     let neighbours = neighbours(draft);
     // Whether each face that was reached is to be flipped if its piece's lowest is not.
@@ -58,15 +58,15 @@ fn walk(
     (piece, is_orientable)
 }
 
-/// Of every face, the faces behind edges of two faces, and whether these run through it in
-/// opposite directions, as they should.
+/// For every face its neighbours across edges of two faces, and whether the two faces run through
+/// the edge in opposite directions, as they should.
 fn neighbours(draft: &Draft) -> Vec<Vec<(usize, bool)>> {
     let mut edges: HashMap<[u32; 2], Vec<(usize, bool)>> = HashMap::new();
     for (f, face) in draft.faces.iter().enumerate() {
         for [i, j] in face.edges() {
             let [a, b] = [i, j].map(|k| face.corners[k].vertex);
             if a == b {
-                continue; // runs in no direction
+                continue; // this edge has no direction
             }
             edges.entry([a.min(b), a.max(b)]).or_default().push((f, a < b));
         }
@@ -80,7 +80,7 @@ fn neighbours(draft: &Draft) -> Vec<Vec<(usize, bool)>> {
             neighbours[g].push((f, forward != other_forward));
         }
     }
-    // The map has no order of its own.
+    // Sorted, as the map has no fixed order.
     neighbours.iter_mut().for_each(|list| list.sort_unstable());
     neighbours
 }

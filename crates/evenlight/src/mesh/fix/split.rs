@@ -34,7 +34,7 @@ pub(super) fn split(draft: &mut Draft) -> Option<Change> {
     (!vertices.is_empty()).then_some(Change::Split { vertices })
 }
 
-/// Of every corner in order, the lowest corner of its fan.
+/// For every corner in order the lowest corner of its fan.
 fn fans(draft: &Draft) -> Vec<usize> {
     let mut edges: HashMap<[u32; 2], Vec<[usize; 2]>> = HashMap::new();
     let mut first = 0;

@@ -1,23 +1,24 @@
 //! Fair rings beside an infinitely sharp crease or the boundary. Ours, in no paper.
 //!
-//! The crease is what it always is, the cubic spline of its own vertices, so that both sides meet;
-//! inside the fan the rules are those of least energy, as in fairness-optimal subdivision (chapter
-//! 8): refinement is d' = A d + B u with the nodes that knot insertion does not give as the control
-//! u. Those on the crease are among them, since its curve has nodes of its own (module `net`).
+//! The crease is, as always, the cubic spline of its own vertices, so that both sides meet. Inside
+//! the fan the rules have least energy, as in fairness-optimal subdivision (chapter 8): refinement
+//! is d' = A d + B u, where the control u is the nodes that knot insertion does not give. The nodes
+//! on the crease are part of u, since its curve has nodes of its own (module `net`).
 //!
 //! 1. **Characteristic map.** The crease runs along x, its nodes shrinking by 1/2, so the map
 //!    shrinks by 1/2 in y too. Of all nets that may do so, it is the nearest to the map that scales
 //!    angles (module `energy`), by |D^2|^2.
 //! 2. **Eigen-nets** D of x^2 and x y, with eigenvalue 1/4, likewise by |D^2 (ring - m)|^2. There
-//!    is none of y^2: the normal curvature across the crease is 0 at a regular point of it, and
-//!    tends to 0 here.
-//! 3. **Regulator.** With e = d - D q, q the coefficients of x, y, x^2, x y, the sum over rings l
-//!    of 16^l (|D^3 ring(e)|^2 + |D^2 ring(e)|^2 + .001 |e|^2) is least with v = K e (module
-//!    `regulator`). That of x and x^2 follows from the crease; y and x y are such that e costs
-//!    least.
+//!    is no eigen-net of y^2: the normal curvature across the crease is 0 at a regular point of the
+//!    crease, and tends to 0 here.
+//! 3. **Regulator.** Let e = d - D q, where q has the coefficients of x, y, x^2, x y. The sum over
+//!    rings l of 16^l (|D^3 ring(e)|^2 + |D^2 ring(e)|^2 + .001 |e|^2) is least with v = K e
+//!    (module `regulator`). The coefficients of x and x^2 follow from the crease; those of y and
+//!    x y are chosen such that e costs least.
 //!
-//! So the eigenvalues are 1/2 twice, 1/4 twice, and then those of e, not above 1/8 but for
-//! rounding: the surface has a tangent plane and bounded curvature for every number of faces.
+//! So the eigenvalues are 1/2 twice, 1/4 twice, and then the eigenvalues of e, which are at most
+//! 1/8 up to rounding: the surface has a tangent plane and bounded curvature for any number of
+//! faces.
 
 mod energy;
 mod net;
@@ -35,11 +36,11 @@ use net::{Net, SPLINE_NODES};
 use regulator::Regulator;
 
 /// The most faces between two sharp edges for which there are fair rules (`CreaseRings::Fair`):
-/// with more, sectors are slivers. From eight on the outer rings have more energy than
-/// Catmull-Clark's, the inner ones far less (chapter 11).
+/// with more faces sectors are slivers. From eight faces on the outer rings have more energy than
+/// Catmull-Clark's, the inner rings far less (chapter 11).
 pub const MAX_FAIR_FACES: usize = 12;
 
-/// What the rings of a fair fan are made with.
+/// The rules that make the rings of a fair fan.
 #[derive(Clone, Debug)]
 pub(crate) struct FairFan {
     pub(crate) rules: Rules,
@@ -103,7 +104,7 @@ impl FairFan {
     }
 }
 
-/// The net of the rules by that of the fan: its refinement, but for the vertex.
+/// The net of the rules as weights of the net of the fan: its refinement without the vertex.
 fn first_net(coarse: &CoarseNet, net: Net) -> Vec<Row> {
     let row = |(s, a, b)| coarse.refined(s, a, b).into_iter().collect();
     let last = coarse.faces() - 1;
@@ -128,12 +129,12 @@ fn eigen_nets(regulator: &Regulator) -> EigenNets {
     let net = regulator.net;
     let polar = RingForms::new(net, &Polar { faces: net.faces });
     let none = [0.0; SPLINE_NODES];
-    // The conditions leave errors of 1e-10; let them not be a skewness of the rules.
+    // The conditions leave errors of 1e-10; they must not make the rules asymmetric.
     let symmetric = |x: Vec<f64>, sign: f64| mirrored_mean(net, &x, sign);
     let x = symmetric(regulator.eigen_net(0.5, LINE, &polar.second, None), -1.0);
     let y = regulator.eigen_net(0.5, none, &polar.second, Some(&polar.with_y));
     let mut y = symmetric(y, 1.0);
-    // As long as the y that it stands for.
+    // As long as y, for which it stands.
     let length = (0..y.len()).map(|k| (polar.with_y[k] + 0.5 * polar.with_y[y.len() + k]) * y[k]);
     let scale = polar.area / length.sum::<f64>();
     y.iter_mut().for_each(|y| *y *= scale);
@@ -210,7 +211,7 @@ fn bounded_creases(net: Net) -> Matrix {
     allowed
 }
 
-/// q of a net: x and x^2 by the crease, y and x y such that the rest costs least.
+/// q of a net: x and x^2 follow from the crease, y and x y make the rest cost least.
 fn quadratic(net: Net, nets: &EigenNets, to_go: &Matrix) -> Matrix {
     let n = net.num_nodes();
     let rows = [crease_tangent(net), crease_bend(net)];
@@ -242,7 +243,7 @@ fn mirrored_rules(net: Net, control: &Matrix, free: &[usize]) -> Matrix {
 }
 
 /// The left eigenvectors of x and y. All other eigenvalues are 1/4 at most, so every step of the
-/// iteration halves what is missing.
+/// iteration halves the error.
 fn tangent_rows(net: Net, step: &Matrix, nets: &EigenNets) -> [Vec<f64>; 2] {
     let n = net.num_nodes();
     // Any row that is 1 on y and 0 on x will do.

@@ -24,9 +24,9 @@
 //!   a_ij  <-  lambda^(i+j) a_ij,     layers  <-  the inner layers of the ring's squares 1 and 2.
 //! ```
 //!
-//! So the eigenvalues are powers of lambda, and the expansion a_10, a_01, a_20, a_11, a_02 is what
-//! the surface tends to: curvature is bounded, and continuous with bi-6 rings, which reproduce a
-//! quadratic of chi. Bi-4 and bi-3 rings replace the segments of bi-5 ones by splines (module
+//! So the eigenvalues are powers of lambda, and the surface tends to the expansion a_10, a_01,
+//! a_20, a_11, a_02. Curvature is bounded; with bi-6 rings, which reproduce a quadratic of chi, it
+//! is continuous. Bi-4 and bi-3 rings replace the segments of bi-5 rings by splines (module
 //! `segment`).
 
 mod model;
@@ -48,7 +48,7 @@ use segment::{
 /// The powers u^i v^j of a piece of the guide without the constant, by falling eigenvalue.
 const NUM_MONOMIALS: usize = 35;
 
-/// The layers of BB coefficients that second-order data are.
+/// The number of layers of BB coefficients in second-order data.
 const LAYERS: usize = 3;
 
 /// The coefficients of a cubic on [0,1] from the uniform B-spline nodes -1, 0, 1, 2, times 6.
@@ -103,8 +103,8 @@ pub(crate) fn sampled_guide(map: &[Vec<f64>; 2], degree: usize) -> Vec<Vec<f64>>
 /// The linear maps of a ring, on the nodes of one sector: first the layers outside u = 1, then
 /// those outside v = 1, layer by layer inside out, then the guide.
 ///
-/// The patches outside are those of the ring before, so (1 - sigma) / sigma times as wide as the
-/// sector.
+/// The patches outside belong to the ring before, so they are (1 - sigma) / sigma times as wide as
+/// the sector.
 struct Ring {
     sigma: f64,
     /// The degree of the patches.
@@ -187,7 +187,7 @@ impl Ring {
         let mut rows: Matrix =
             (0..order * order).map(|coef| self.row_on_guide(square, coef)).collect();
         let outer = order - LAYERS;
-        // The part of edge u = 1 that squares 0 and 1 have, and of v = 1 that 0 and 2 have.
+        // The parts of edge u = 1 that belong to squares 0 and 1, and of v = 1 to squares 0 and 2.
         let [beside_u, beside_v] = [[Some(1), Some(0), None], [Some(1), None, Some(0)]];
         for (layer, k) in (0..LAYERS).flat_map(|layer| (0..order).map(move |k| (layer, k))) {
             if let Some(part) = beside_u[square] {
@@ -221,7 +221,7 @@ impl Ring {
         row
     }
 
-    /// The patches that stand for the sampled one of a square.
+    /// The patches that replace the sampled patch of a square.
     fn pieces(&self, which: usize, square: &Matrix) -> Vec<PatchRule> {
         let (split, order) = (num_pieces(self.degree), self.degree + 1);
         let segments = knots(self.degree, self.sigma)
@@ -246,8 +246,8 @@ impl Ring {
         (0..split * split).map(piece).collect()
     }
 
-    /// The layers outside the border of the first ring, on a c-net: the tensor border b_ij of the
-    /// net, continued.
+    /// The layers outside the border of the first ring, as weights of a c-net: they continue the
+    /// tensor border b_ij of the net.
     fn border_of_cnet(&self, n: usize) -> Vec<Vec<f64>> {
         let width = (1.0 - self.sigma) / self.sigma;
         let across =

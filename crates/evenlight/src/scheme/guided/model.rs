@@ -1,9 +1,9 @@
-//! What the rules of a valence and a contraction are made of: the characteristic ring and the
+//! The parts that make the rules of a valence and a contraction: the characteristic ring and the
 //! guide.
 //!
-//! At the speed of Catmull-Clark subdivision the guides of valences up to 16 are tabulated and the
-//! characteristic ring is that of the scheme `cc`. All others are derived when they are asked for,
-//! with some 30 digits, by the crate that wrote the tables (feature `derive`).
+//! At Catmull-Clark's contraction the guides of valences up to 16 are tabulated, and the scheme
+//! `cc` gives the characteristic ring. All others are derived when they are asked for, with some
+//! 30 digits, by the crate that wrote the tables (feature `derive`).
 
 #[cfg(feature = "derive")]
 use std::{
@@ -35,7 +35,7 @@ pub(in crate::scheme) const LAST_VALENCE: usize = crate::scheme::TABULATED_VALEN
 #[cfg(feature = "derive")]
 const GUIDE_DEGREE: usize = 5;
 
-/// What the rules of a valence are made of.
+/// The parts that make the rules of a valence.
 pub(super) struct Model {
     /// The width of a ring's hole, the ring being 1 wide.
     pub(super) sigma: f64,
@@ -44,8 +44,8 @@ pub(super) struct Model {
     /// The characteristic ring in the domain of the guide: for squares 0, 1, 2 the bi-3 patches of
     /// the sector coordinates u and v of sector 0.
     ///
-    /// It is scaled such that the ends of the outer edges are (1,0) and (0,1); but where chi(1,1)
-    /// would lie outside the unit square of the guide, for n = 3, that corner is (1,1).
+    /// It is scaled such that the ends of the outer edges are (1,0) and (0,1). But for n = 3
+    /// chi(1,1) would lie outside the unit square of the guide; there that corner is (1,1).
     pub(super) characteristic: [[Vec<f64>; 2]; 3],
     /// The coefficients a_ij of [`monomials`] of the guide relative to c_0, on the nodes of a
     /// c-net.
@@ -94,11 +94,11 @@ impl Model {
 #[cfg(feature = "derive")]
 type Guides = BTreeMap<(usize, Option<u64>), Arc<RoundedGuide>>;
 
-/// The guides that were derived last: each takes some tenths of a second.
+/// The guides that were derived last. They are kept, as each takes some tenths of a second.
 #[cfg(feature = "derive")]
 static DERIVED: Mutex<Guides> = Mutex::new(BTreeMap::new());
 
-/// More guides than this, of 10 to 60 kB each, are not kept.
+/// At most this many guides are kept, of 10 to 60 kB each.
 #[cfg(feature = "derive")]
 const MOST_DERIVED: usize = 256;
 
@@ -187,7 +187,7 @@ mod tests {
         }
     }
 
-    /// A speed that happens to be Catmull-Clark's.
+    /// A lambda that happens to be Catmull-Clark's.
     #[test]
     fn speeds_are_continued_by_that_of_catmull_clark() {
         for n in [3, 5, 7, 16] {

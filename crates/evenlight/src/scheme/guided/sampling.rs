@@ -1,8 +1,8 @@
 //! Monomials of the guide composed with the characteristic ring, sampled at the corners of patches.
 //!
-//! The Taylor coefficients t_rs of x^r y^s, 0 <= r, s < m, form a ring: products are cut off,
-//! x^m = y^m = 0, and no coefficient that is kept depends on one that was dropped. So the jets of
-//! U^i V^j follow from those of U and V exactly, though its degree is up to 30.
+//! The Taylor coefficients t_rs of x^r y^s, 0 <= r, s < m, form an algebraic ring: products are
+//! cut off by x^m = y^m = 0, and no coefficient that is kept depends on one that was dropped. So
+//! the jets of U^i V^j follow exactly from the jets of U and V, though its degree is up to 30.
 
 use super::segment::{bb_at_end, bb_at_start, taylor_at_end, taylor_at_start};
 use crate::pairs::pairs;

@@ -1,6 +1,6 @@
 //! Univariate Bernstein-Bezier data at the ends of [0,1], and the splines of bi-4 and bi-3 rings.
 //!
-//! All functions are linear in the numbers they get; [`matrix`] makes tables of them.
+//! All functions are linear in their arguments; [`matrix`] makes tables of them.
 
 use crate::patch::basis::binomial;
 
@@ -101,8 +101,8 @@ fn mix(a: f64, b: f64, t: f64) -> f64 {
 /// The knots inside [0,1] of the splines of degree `degree` that replace quintics over the whole
 /// edge of a hole, and over the outer part [sigma,1] of it.
 ///
-/// Rings join C2 if splines keep their knots when the edge is cut at sigma. Its inner part is the
-/// edge of the next hole, so with H and Z the knots in the two cases that is
+/// Rings join C2 if splines keep their knots when the edge is cut at sigma. The inner part of the
+/// edge is the edge of the next hole. So, with H and Z the knots in the two cases, the condition is
 ///
 /// ```text
 ///   H is contained in   sigma H  +  {sigma}  +  sigma + (1 - sigma) Z.
@@ -111,8 +111,8 @@ fn mix(a: f64, b: f64, t: f64) -> f64 {
 ///   degree 3, C2:   H = {sigma t, t},    Z = {1 - t, 1 - t/2},    t = 1 / (2 - sigma)
 /// ```
 ///
-/// A single knot must be sigma or, in the last part, come from Z. Of two, (sigma, t) is a solution
-/// too; ours are those that are equally spaced for sigma = 1/2. There t - sigma is (1 - sigma)^2 t.
+/// A single knot must be sigma or, in the last part, come from Z. For two knots (sigma, t) is a
+/// solution, too; ours are equally spaced for sigma = 1/2. There t - sigma is (1 - sigma)^2 t.
 pub(super) fn knots(degree: usize, sigma: f64) -> [Vec<f64>; 2] {
     match degree {
         4 => [vec![sigma], vec![0.5]],
@@ -134,9 +134,9 @@ pub(super) fn knots(degree: usize, sigma: f64) -> [Vec<f64>; 2] {
 ///
 /// The quintic itself is its only piece in degree 5, and so is any polynomial of degree 6.
 ///
-/// In terms of blossoms f: the data at an end are coefficients of the piece there, those that two
-/// ends share are extrapolated, f(0,0,x,1) from f(0,0,x,0) and f(0,0,x,x), and the rest follows
-/// inwards.
+/// In terms of blossoms f: the data at an end are coefficients of the piece there. Coefficients
+/// that two ends share are extrapolated, f(0,0,x,1) from f(0,0,x,0) and f(0,0,x,x), and the rest
+/// follows inwards.
 pub(super) fn pieces(knots: &[f64], quintic: &[f64]) -> Vec<Vec<f64>> {
     let degree = 5 - knots.len();
     let start = |h: f64| bb_at_start(degree, &in_units(h, &taylor_at_start(quintic, 3)));
@@ -177,9 +177,9 @@ pub(super) fn num_pieces(degree: usize) -> usize {
     }
 }
 
-/// What stands for the two parts, cut at `sigma`, of an edge with [`pieces`] between `knots`: for a
-/// spline the quintics that have its data at 0, sigma and 1. Of all knots those of the spline are
-/// kept, see [`knots`], so the pieces of the parts are the spline again.
+/// The two polynomials that stand for the parts, cut at `sigma`, of an edge with [`pieces`] between
+/// `knots`: for a spline the quintics that have its data at 0, sigma and 1. All knots of the spline
+/// are kept, see [`knots`], so the pieces of the parts are the spline again.
 pub(super) fn parts(knots: &[f64], sigma: f64, b: &[f64]) -> [Vec<f64>; 2] {
     if knots.is_empty() {
         return cut(b, sigma);

@@ -14,8 +14,8 @@
 //!   a_ij^(r,3k) = a_ji^(1-r,3k)      a_3j^(r,3k) = a_3j^(-r,3k)
 //! ```
 //!
-//! exactly; the files leave out the rows that follow: all of rule 12, and r > n/2 of 11 and 22,
-//! r > (n+1)/2 of 31 and 32.
+//! exactly. The files leave out the rows that follow from this: all rows of rule 12, the rows
+//! r > n/2 of rules 11 and 22, and the rows r > (n+1)/2 of rules 31 and 32.
 
 use super::{
     EgTable, Mirror, NODES, RULES, completed, eg_n03, eg_n05, eg_n06, eg_n07, eg_n08, eg_n09,
@@ -47,8 +47,8 @@ pub(crate) struct EgWeights {
     weights: [Vec<[f64; NODES]>; 6],
 }
 
-/// The weights of one valence: those of the table, to 1 ulp; or, if `published`, the nearest to
-/// what [KP23-EG] prints, that is truncated toward zero to 5 digits.
+/// The weights of one valence. They are the weights of the table, to 1 ulp; if `published`, they
+/// are the nearest to what [KP23-EG] prints, truncated toward zero to 5 digits.
 ///
 /// `None` if there is no table, or nothing printed.
 pub(crate) fn eg_weights(valence: usize, published: bool) -> Option<EgWeights> {

@@ -1,7 +1,7 @@
-//! The rules of fairness-optimal subdivision, ours.
+//! The rules of fairness-optimal subdivision, which is ours.
 //!
 //! fair4 and fair3 have the layout of Quadratic-Attraction rules ([`super::qas`]), fair4d that of
-//! Evolving-Guide rules ([`super::eg`]). Nothing is printed of them.
+//! Evolving-Guide rules ([`super::eg`]). No paper prints them.
 
 mod fair3_n03;
 mod fair3_n05;

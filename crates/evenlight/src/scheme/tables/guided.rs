@@ -6,8 +6,8 @@
 //!   p_ij^s = sum over r = 0..n-1 and the nodes (a,b) of weight_ij^(r,ab) d_ab^(s+r) + rest e
 //! ```
 //!
-//! and p_00 = c_0. The mirrors make exactly p_ji of a net the p_ij of its image in the diagonal of
-//! the sector, and p_i0 the p_i0 of its image in line s-1; the files leave out what follows.
+//! and p_00 = c_0. By the mirrors p_ji of a net is exactly p_ij of its image in the diagonal of the
+//! sector, and p_i0 is p_i0 of its image in line s-1. The files leave out what follows from this.
 
 use super::{
     GuidedTable, guided_n03, guided_n05, guided_n06, guided_n07, guided_n08, guided_n09,
@@ -56,8 +56,8 @@ pub(crate) fn guide_weights(valence: usize) -> Option<GuideWeights> {
 }
 
 impl GuideWeights {
-    /// The numerators over 10^18 of the weights in coefficient p_ij of sector 0: those of the
-    /// nodes of the sectors, six each, then that of e, which is what is missing to one. For
+    /// The numerators over 10^18 of the weights in coefficient p_ij of sector 0: six for each
+    /// sector, one for each of its nodes, then the weight of e, which is one minus all others. For
     /// p_00, which is c_0, all are zero.
     pub(crate) fn coefficient(self, i: usize, j: usize) -> Vec<i64> {
         let n = self.table.valence;

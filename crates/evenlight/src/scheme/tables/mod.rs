@@ -1,12 +1,12 @@
 //! Tables of refinement weights: the generated files, and the one way to read them.
 //!
 //! The files `eg_nNN.rs` hold the rules of Evolving-Guide subdivision, read in [`eg`]; the files
-//! `qas_nNN.rs` those of Quadratic-Attraction subdivision, read in [`qas`]; the files
+//! `qas_nNN.rs` the rules of Quadratic-Attraction subdivision, read in [`qas`]; the files
 //! `guided_nNN.rs` the guides of Guided C2 subdivision, read in [`guided`]; the folder `fair` our
-//! own rules, read in [`fair`]. What they hold is in [`forms`]: exact integers over
-//! [`DENOMINATOR`]; the weight of the extraordinary point is never listed, being one minus the
-//! sum of all others. What a mirror symmetry repeats is, but for the convenience of whole rows,
-//! left out, and filled in by [`Mirror`].
+//! own rules, read in [`fair`]. Module [`forms`] says what they hold: exact integers over
+//! [`DENOMINATOR`]. The weight of the extraordinary point is never listed, as it is one minus the
+//! sum of all others. The files leave out what a mirror symmetry repeats, up to a few weights that
+//! make rows complete; [`Mirror`] fills it in.
 //!
 //! `cargo xtask tables` derives and writes the files, `cargo xtask tables --check` compares them.
 //! Should they be so broken that this crate does not compile, build the chore without it:
@@ -82,7 +82,8 @@ const RULES: [(usize, usize); 6] = [(1, 1), (2, 1), (1, 2), (2, 2), (3, 1), (3, 
 /// The nodes of a sector, 00 10 20 30 01 11 21 31 02 12 22 32; d_ij is number i + 4j.
 const NODES: usize = crate::net::DNET_NODES;
 
-/// The place of a valence among the tables, if there is one; if `published`, if it is printed too.
+/// The place of a valence among the tables, if there is one and, for `published`, a paper prints
+/// it.
 fn table_index(valence: usize, published: bool) -> Option<usize> {
     if published && !PUBLISHED_VALENCES.contains(&valence) {
         return None;

@@ -32,7 +32,7 @@
 //!   tau_m^hk = tau_m'^kh
 //! ```
 //!
-//! exactly; the files leave out what follows.
+//! exactly. The files leave out what follows from this.
 
 use super::{
     Mirror, NODES, QasTable, RULES, completed, qas_n03, qas_n05, qas_n06, qas_n07, qas_n08,
@@ -71,8 +71,8 @@ pub(crate) struct QasWeights {
     mu: [Vec<[f64; NODES]>; 2],
 }
 
-/// The weights of one valence: those of the table, to 1 ulp; or, if `published`, the nearest to
-/// what [KP23-QAS] prints, that is truncated toward zero to 5 digits.
+/// The weights of one valence. They are the weights of the table, to 1 ulp; if `published`, they
+/// are the nearest to what [KP23-QAS] prints, truncated toward zero to 5 digits.
 ///
 /// `None` if there is no table, or nothing printed.
 pub(crate) fn qas_weights(valence: usize, published: bool) -> Option<QasWeights> {
@@ -98,9 +98,9 @@ impl QasWeights {
 
     /// The weights tau_2..tau_6 in the rule of the new node (h,k) of sector s.
     ///
-    /// For h < 3 they are those of q_2..q_6 of sector s. For (3,k) one half of each counts for q_m
-    /// of sector s, and one half for the mirror image in sector s+1: tau_2 for q_4, tau_3 for q_6,
-    /// tau_4 for q_2, tau_5 for q_5, tau_6 for q_3 (eq. 7).
+    /// For h < 3 they are the weights of q_2..q_6 of sector s. For (3,k) one half of each counts
+    /// for q_m of sector s, and one half for the mirror image in sector s+1: tau_2 for q_4, tau_3
+    /// for q_6, tau_4 for q_2, tau_5 for q_5, tau_6 for q_3 (eq. 7).
     ///
     /// # Panics
     ///

@@ -26,8 +26,9 @@ pub(super) trait Chart {
     fn series(&self, s: usize, which: usize, at: [f64; 2]) -> [Series; 2];
 }
 
-/// The map that scales angles so that the fan fills a half-plane: with a + i b = r e^(i phi) in
-/// sector s, it is r e^(i (2 phi + pi s) / f). Rings shrink by 1/2 under it, areas by one factor.
+/// The map that scales angles so that the fan fills a half-plane: a + i b = r e^(i phi) in sector s
+/// becomes r e^(i (2 phi + pi s) / f). It keeps radii, so that rings shrink by 1/2, and scales all
+/// areas by one factor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polar {
     pub(super) faces: usize,

@@ -8,15 +8,15 @@
 //!     .    (1,0)  (2,0)  (3,0)  line s
 //! ```
 //!
-//! On the crease (a,0) is free too. The curve itself is the cubic spline of the nodes P_a, which go
-//! by their own rules, and the node beyond makes the patches have it:
+//! On the crease (a,0) is free, too. The curve itself is the cubic spline of the nodes P_a, which
+//! have rules of their own. The node beyond the crease is such that the patches end in this curve:
 //!
 //! ```text
 //!   (a,-1) + 4 (a,0) + (a,1) = 6 P_a.
 //! ```
 //!
-//! All is relative to the limit point, so the spline's node at the centre is -(P_1 + P_1') / 4, P'
-//! being the other half of the crease.
+//! All is relative to the limit point, so the spline's node at the centre is -(P_1 + P_1') / 4,
+//! where P' is the other half of the crease.
 
 use crate::dense::Matrix;
 use crate::patch::basis::CUBIC_B_SPLINE_TO_BB;
@@ -43,7 +43,7 @@ pub(super) const PATCHES: [[isize; 2]; 12] = [
     [1, 3],
 ];
 
-/// The nodes of a fan of so many faces.
+/// The nodes of a fan with this number of faces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Net {
     pub(super) faces: usize,
@@ -130,7 +130,7 @@ impl Net {
         })
     }
 
-    /// The node beyond a line, by what knows the other nodes; `None` if it is not beyond one.
+    /// The node beyond a line from the other nodes; `None` if it is not beyond a line.
     fn beyond(
         self,
         [s, a, b]: [isize; 3],
@@ -214,7 +214,7 @@ impl Net {
         rule
     }
     /// The BB coefficients of the patches of the net itself between 1 and 2 in sector `s`, in the
-    /// order [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2]: those of a finite end of the rings.
+    /// order [0,1] x [1,2], [1,2] x [0,1], [1,2] x [1,2]: the patches where the rings end.
     pub(super) fn cells(self, s: isize) -> [Vec<Row>; 3] {
         [[0, 1], [1, 0], [1, 1]].map(|[a, b]: [isize; 2]| {
             let rows = to_bb(|i, j| self.old(s, a - 1 + i, b - 1 + j));

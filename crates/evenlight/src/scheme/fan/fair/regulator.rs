@@ -1,20 +1,20 @@
-//! The rules of least energy: eigen-nets, and the regulator of what is beside them.
+//! The rules of least energy: eigen-nets, and the regulator of the rest of a net.
 
 use super::energy::RingForms;
 use super::net::{Net, SPLINE_NODES};
 use crate::dense::Matrix;
 
-/// The weight of |e|^2 in the cost: so small that it matters only where rings do not see e.
+/// The weight of |e|^2 in the cost: so small that it matters only where rings do not depend on e.
 const SIZE: f64 = 1e-3;
-/// The doublings after which the sum over rings is given up; 2^7 rings are enough.
+/// The doublings after which the search for the sum over rings stops; 2^7 rings are enough.
 const MAX_DOUBLINGS: usize = 14;
-/// The slowest nets die by 1/2 in a step, after the factor 4: this is rounding.
+/// Below this a change is rounding: after the factor 4 the slowest nets shrink by 1/2 in a step.
 const CONVERGED: f64 = 1e-17;
 
 /// The control problem of a fan.
 pub(super) struct Regulator {
     pub(super) net: Net,
-    /// The nodes that are ours to choose in every refinement.
+    /// The nodes that the rules may choose in every refinement.
     pub(super) free: Vec<usize>,
     /// Refinement by knot insertion, the free nodes zero.
     pub(super) step: Matrix,
@@ -25,8 +25,8 @@ impl Regulator {
         Self { net, free: net.free(), step: net.regular_step() }
     }
 
-    /// Of all nets whose refinement may be `factor` times themselves, with the crease's nodes
-    /// given, the one of least |D^2 f|^2 - 2 `linear`(f) on its ring.
+    /// Among all nets whose refinement can be `factor` times themselves, with the crease's nodes
+    /// given, the net of least |D^2 f|^2 - 2 `linear`(f) on its ring.
     pub(super) fn eigen_net(
         &self,
         factor: f64,
@@ -52,8 +52,8 @@ impl Regulator {
             .collect()
     }
 
-    /// All nodes of a net that refines to `factor` times itself, by its free nodes and the
-    /// spline's: nodes 3 follow from them.
+    /// All nodes of a net that refines to `factor` times itself, from its free nodes and the nodes
+    /// of the spline: the nodes with an index 3 follow from them.
     fn eigen_nodes(&self, factor: f64) -> Matrix {
         let spline = self.net.first_spline_node()..self.net.num_nodes();
         let known: Vec<usize> = self.free.iter().copied().chain(spline).collect();
@@ -70,8 +70,8 @@ impl Regulator {
         nodes
     }
 
-    /// The cost-to-go P and the gain K of the nets that `allowed` lets pass, a projection that
-    /// refinement leaves alone.
+    /// The cost-to-go P and the gain K of the nets in the range of `allowed`, a projection that
+    /// commutes with refinement.
     pub(super) fn optimum(&self, forms: &RingForms, allowed: &Matrix) -> [Matrix; 2] {
         let (n, m) = (self.net.num_nodes(), self.free.len());
         let mut energy = forms.second.clone();
