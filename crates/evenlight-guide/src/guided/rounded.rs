@@ -1,8 +1,8 @@
 //! What a surface needs of a valence and a contraction, computed when it is asked for and rounded
 //! once.
 //!
-//! The tables of [`super::table`] are for the speed of Catmull-Clark subdivision and valences up
-//! to 16. Everything else a library takes from here; at valence 32 it takes half a second.
+//! The tables of [`emit`](crate::emit) are for the speed of Catmull-Clark subdivision and valences
+//! up to 16. Everything else a library takes from here; at valence 32 it takes half a second.
 
 use std::ops::RangeInclusive;
 
