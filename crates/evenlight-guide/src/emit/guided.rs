@@ -1,6 +1,6 @@
 //! The table of guided subdivision: the generating matrix and the map of the cap, in integers.
 //!
-//! What a library needs of a valence and cannot compute in a moment is the fit of the guide
+//! For each valence a library cannot compute two things in a moment: the fit of the guide
 //! ([`crate::guided::fit`]) and the choice of the cap's map ([`crate::guided::cap`]). All else, the
 //! characteristic ring and the tables of rings and cap, follows from the cosine of the turn by
 //! `+ - * /` and square roots ([`crate::guided::characteristic`], [`crate::guided::rings`]).

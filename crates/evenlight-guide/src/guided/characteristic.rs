@@ -11,8 +11,8 @@
 //! is the speed at which rings contract [KP18-Guided, sec. 6.3]. sigma = 1/2 is Catmull-Clark
 //! subdivision itself; at every valence some sigma has lambda = 1/2.
 //!
-//! The eigenvectors of lambda are a planar c-net, and the net a ring chi of three bi-3 patches per
-//! sector that lambda chi continues with continuous second derivatives:
+//! The eigenvectors of lambda are a planar c-net. The net defines a ring chi of three bi-3 patches
+//! per sector, and lambda chi continues chi with continuous second derivatives:
 //!
 //! ```text
 //!   v=1     +------+-----+          A = [sigma,1] x [0,sigma]

@@ -3,8 +3,7 @@
 //! ```text
 //!   line s+1
 //!   1 +-----+-----+      The net behind the last ring is a bi-3 spline between 1/2 and 1 (x), if
-//! the
-//!     |  x  |  x  |      node of the crease stands for the centre: there the surface is C2 like the rings.
+//!     |  x  |  x  |      the node of the crease stands for the centre: there the surface is C2.
 //!     +-----+-----+      What is left is a hole with one cubic along each outer edge, as behind
 //!     |  o  |  x  |      Catmull-Clark's rings, and o a plain cap.
 //!     +-----+-----+ 1
