@@ -177,7 +177,7 @@ mod tests {
     use crate::guided::symmetry::symmetrised;
     use crate::linear::largest;
 
-    /// Those of Catmull-Clark subdivision, and some of other speeds.
+    /// The rings of Catmull-Clark subdivision, and some of other contractions.
     fn characteristic_rings() -> Vec<CharacteristicRing> {
         let of_speed = |(n, percent)| {
             let sigma = sigma_of(n, Real::ratio(percent, 100));

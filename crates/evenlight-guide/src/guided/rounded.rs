@@ -19,7 +19,7 @@ use crate::real::Real;
 /// The valences for which guides are computed, without 4.
 pub const VALENCES: RangeInclusive<usize> = 3..=32;
 
-/// The speeds lambda, ends excluded, for which guides are computed.
+/// The contractions lambda, ends excluded, for which guides are computed.
 pub const LAMBDAS: [f64; 2] = [0.3, 0.7];
 
 /// The guide of one valence and contraction.
