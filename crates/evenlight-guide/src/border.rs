@@ -79,7 +79,7 @@ impl Border {
         (self.u[place_index(k, l)], self.u[place_index(l, k)])
     }
 
-    /// The averaged L-net of a bi-degree `degree` patch f over the unit square, sampled at
+    /// The averaged L-net of a patch f of bi-degree `degree` over the unit square, sampled at
     /// `scale * (u, v)`: 21 rows on the BB coefficients of f, whose first index is the faster.
     pub fn sample(&self, scale: Real, degree: usize) -> Matrix {
         let corners = Corner::ALL.map(|corner| (corner, self.corner_rows(corner, scale, degree)));
@@ -126,7 +126,7 @@ enum Corner {
 impl Corner {
     const ALL: [Self; 3] = [Self::Outer, Self::Right, Self::Left];
 
-    /// Turns the corner to (0, 0), as far as indices go; its own inverse.
+    /// Turns the corner to (0, 0) by changing indices; its own inverse.
     fn turned(self, (k, l): (usize, usize)) -> (usize, usize) {
         match self {
             Self::Outer => (k, l),
@@ -135,7 +135,7 @@ impl Corner {
         }
     }
 
-    /// Where the place sits in the 3 x 3 block of this corner, if it does.
+    /// Where the place sits in the 3 x 3 block of this corner, if it is in the block.
     fn own_place(self, place: (usize, usize)) -> Option<(usize, usize)> {
         Some(self.turned(place)).filter(|&place| is_outer(place))
     }

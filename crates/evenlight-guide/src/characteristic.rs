@@ -64,7 +64,7 @@ pub fn characteristic_map(valence: usize) -> CharacteristicMap {
 /// The net shrunk by `lambda`, scaled so that node (0,1) is (0,1).
 ///
 /// With x_0 = 1 the other five are the solution of five of the six equations of (B - lambda) x = 0;
-/// the sixth holds because `lambda` is an eigenvalue (a test looks).
+/// the sixth holds because `lambda` is an eigenvalue (a test checks it).
 fn eigennet(c: Real, lambda: Real) -> PlaneNet {
     let shifted = &refinement_matrix(c) - &Matrix::identity(6).scaled(lambda);
     let equations = shifted.select_rows(&[1, 2, 3, 4, 5]);
@@ -113,8 +113,8 @@ impl PlaneNet {
 
     /// x_0..x_5 of the refined net.
     ///
-    /// The Catmull-Clark rules of all its nodes but the centre are those of tensor-product cubic
-    /// splines; the centre is 0 for reasons of symmetry.
+    /// All its nodes except the centre follow the rules of tensor-product cubic splines; the centre
+    /// is 0 by symmetry.
     fn refined(&self) -> [Real; 6] {
         [(1, 0), (2, 0), (1, 1), (2, 2), (1, 2), (2, 1)]
             .map(|(a, b)| self.combined(&refined_cubic(a), &refined_cubic(b)))

@@ -2,7 +2,7 @@
 //!
 //! Evolving-Guide subdivision, EG [KP23-EG, eq. 7], is the step of [`crate::rules`] with q replaced
 //! by the quadratic that makes the guide's F_4 least ([`Step::quadratic`]). So each step
-//! evolves the guide anew, and the net and the extraordinary point c_0 = p are all there is:
+//! evolves the guide anew, and depends on the net and the extraordinary point c_0 = p alone:
 //!
 //! ```text
 //!   d_hk(new, sector s) = a_0^hk c_0 + sum over r, i, j of a_ij^(r,hk) d_ij^(s+r)
@@ -15,8 +15,7 @@
 //!   a_ij^(r,3k) = a_ji^(1-r,3k)      a_3j^(r,3k) = a_3j^(-r,3k)
 //! ```
 //!
-//! With F_5 in place of F_4 the same substitution gives the scheme that [KP23-QAS, sec. 7] puts
-//! beside Quadratic-Attraction subdivision under the name PAS4.
+//! With F_5 in place of F_4 the same substitution gives the scheme PAS4 of [KP23-QAS, sec. 7].
 
 use crate::linear::Matrix;
 use crate::nets::{DNet, Mirror, own_nodes};
@@ -85,7 +84,7 @@ impl NetRule {
         Self { on_net: on_net.collect(), ..*self }
     }
 
-    /// Each weight averaged with that of `other`.
+    /// Each weight averaged with the weight of `other`.
     pub fn averaged_with(&self, other: &Self) -> Self {
         let pairs = self.on_net.iter().zip(&other.on_net);
         Self {

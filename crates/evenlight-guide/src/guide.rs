@@ -9,9 +9,9 @@
 //! b_00..b_50 and the first layer b_01..b_41 beside it. The points next to the centre are q; the
 //! three far points of the edge and the three of the layer are such that the averaged L-net of the
 //! patch agrees with the net of the sector at the twelve places of the two ends of the L.
-//! In total-degree points the condition of a C1 join across the line, that the layers of both
-//! sides and the edge satisfy b_a1' = 2(1-c) b_a0 + 2c b_(a+1)0 - b_a1, holds of itself: for q by
-//! its definition, for the far points since the net is C2 across the line.
+//! In total-degree points the sectors join with C1 across the line if the layers of both sides and
+//! the edge satisfy b_a1' = 2(1-c) b_a0 + 2c b_(a+1)0 - b_a1. This holds: for q by its definition,
+//! for the far points since the net is C2 across the line.
 //!
 //! ```text
 //!   b_05
@@ -26,8 +26,8 @@
 //! same cross derivatives; its nine inner coefficients are such that the averaged L-net of w agrees
 //! with the net at the nine places of the outer corner.
 //!
-//! **3. The guide, in degree bi-5.** g has the lines of step 1 exactly, and as inner 4 x 4
-//! coefficients those of w, degree-raised.
+//! **3. The guide, in degree bi-5.** g has the lines of step 1 exactly. Its inner 4 x 4
+//! coefficients are the coefficients of the degree-raised w.
 
 use crate::border::{Border, NUM_PLACES, is_outer, net_to_bb, places};
 use crate::linear::Matrix;
@@ -68,8 +68,8 @@ pub fn guide(border: &Border) -> Guide {
     Guide { on_net: g.columns(0..split), on_q: g.columns(split..split + NUM_Q) }
 }
 
-/// What the averaged L-net shall be: the net itself in BB form, as rows on the 27 numbers; those of
-/// the two ends and those of the outer corner, with the numbers of their places.
+/// The required averaged L-net: the net itself in BB form, as rows on the 27 numbers. The rows of
+/// the two ends come first, then the rows of the outer corner, with the numbers of their places.
 struct Target {
     end_places: Vec<usize>,
     ends: Matrix,
@@ -90,8 +90,8 @@ impl Target {
     }
 }
 
-/// Step 1: the 18 line points. The six of q are given; the twelve far ones solve the twelve
-/// equations of the two ends of the L.
+/// Step 1: the 18 line points. The six points of q are given; the twelve far points solve the
+/// twelve equations of the two ends of the L.
 fn line_points(border: &Border, target: &Target) -> Matrix {
     let equations = &border.sample(Real::ONE, 5).select_rows(&target.end_places) * &bi5_lines();
     let near = Matrix::zeros(NUM_Q, NUM_PLACES).beside(&Matrix::identity(NUM_Q));

@@ -1,10 +1,11 @@
 //! Guided C2 subdivision: the derivation.
 //!
-//! A guided surface [KP18-Guided] around an extraordinary point is decided on in two steps. First
-//! a *guide*, n bi-5 pieces that join with curvature continuity and need not meet the surrounding
-//! surface; then an infinite sequence of *rings* of patches that join each other and the
-//! surrounding surface with continuous second derivatives, and take everything else from the guide:
-//! ring l samples it at lambda^l chi, chi being a characteristic ring and lambda its eigenvalue.
+//! A guided surface [KP18-Guided] around an extraordinary point is made in two steps. The first
+//! makes a *guide*: n bi-5 pieces that join with curvature continuity and need not meet the
+//! surrounding surface. The second makes an infinite sequence of *rings* of patches that join each
+//! other and the surrounding surface with continuous second derivatives. They take everything else
+//! from the guide: ring l samples it at lambda^l chi, where chi is a characteristic ring and lambda
+//! its eigenvalue.
 //!
 //! ```text
 //!    c-net ----------------> outer border of ring 0 ---.
@@ -24,9 +25,9 @@
 //! - [`fit`]: the guide of a c-net, the fairest by the measures of [`fairness`].
 //! - [`cap`]: bi-6 patches that close the hole after any ring.
 //! - [`symmetry`]: the mirrors of a sector.
-//! - [`rounded`]: what a library needs of any valence and contraction, at run time; the same as
-//!   integers in tables is in [`crate::emit`].
-//! - [`bb`]: univariate Bernstein-Bezier tools; [`solutions`]: systems that leave freedom.
+//! - [`rounded`]: the numbers that a library needs at run time for any valence and contraction;
+//!   [`crate::emit`] has the same numbers as integers in tables.
+//! - [`bb`]: univariate Bernstein-Bezier tools; [`solutions`]: systems with many solutions.
 //!
 //! Sectors and lines are as everywhere in this crate: sector s lies between line s-1, along which
 //! u runs, and line s, along which v runs. A patch of bi-degree d has its coefficients b_ij in the

@@ -25,8 +25,8 @@ pub const Q_MIRRORED: [usize; 6] = [0, 3, 5, 1, 4, 2];
 
 /// The matrix A of the passage to the next sector: q^(s+1) = A q^s, [KP23-QAS, eq. 1].
 ///
-/// Along line s nothing changes but the names, (q_2, q_3) := (q_4, q_6); the other rows express
-/// that the direction of line s+1 is 2c times that of line s minus that of line s-1,
+/// Along line s only the names change, (q_2, q_3) := (q_4, q_6). The other rows express that the
+/// direction of line s+1 is 2c times the direction of line s minus the direction of line s-1,
 /// c = cos(2 pi / n).
 pub fn turn(valence: usize) -> Matrix {
     let c = Real::cos_of_turn(valence);

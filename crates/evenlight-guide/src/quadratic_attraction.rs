@@ -1,19 +1,19 @@
 //! The rules of Quadratic-Attraction subdivision: kappa, tau and mu.
 //!
 //! Quadratic-Attraction subdivision, QAS4 [KP23-QAS], is the step (d, q) -> d of [`crate::rules`],
-//! with its weights kappa of the net and tau of q, and a q that is chosen once: each step only
-//! restricts it to the smaller domain, so that the surface is attracted to one quadratic and its
+//! with its weights kappa of the net and tau of q. Here q is chosen once, and each step only
+//! restricts it to the smaller domain. So the surface is attracted to one quadratic and its
 //! curvature stays bounded.
 //!
 //! The first q comes from the first net, as the quadratic that makes F_5 of the guide least
-//! ([`Step::quadratic`](crate::rules::Step::quadratic)). Of its coefficients the tables hold two,
+//! ([`Step::quadratic`](crate::rules::Step::quadratic)). The tables hold two of its coefficients,
 //!
 //! ```text
 //!   q_m^s = sum over r = 0..n-1, i, j of mu_ij^(m,r) d_ij^(s+r) + (1 - sum) p,   m = 4, 5:
 //! ```
 //!
-//! the sectors share the coefficients along their lines, and across line s the quadratic passes
-//! with A ([`crate::quadratic::turn`]), so that q_4 and q_5 of all sectors are all of q
+//! Neighbouring sectors share the coefficients along their line, and the matrix A takes the
+//! quadratic across line s ([`crate::quadratic::turn`]). So q_4 and q_5 of all sectors determine q
 //! [KP23-QAS, sec. 4.2, S2]:
 //!
 //! ```text
@@ -23,7 +23,7 @@
 //! c = cos(2 pi / n), not zero at the valences with tables. DIFFERENCE: (S2) prints q_i where the
 //! node d_ij is meant.
 //!
-//! q_4 lies on line s and q_5 in the diagonal of the sector, hence, for i, j below 3, r modulo n:
+//! q_4 lies on line s and q_5 on the diagonal of the sector. Hence, for i, j below 3, r modulo n:
 //!
 //! ```text
 //!   mu_ij^(4,r) = mu_ji^(4,1-r)     mu_3j^(4,r) = mu_3j^(4,-r)
@@ -38,7 +38,7 @@ use crate::rules::{RULES, StepRule, step, symmetrised};
 /// The order k of the functional F_k that determines the first q.
 pub const QAS_ORDER: usize = 5;
 
-/// The coefficients q_m with rules of their own, and the mirror that leaves each where it is.
+/// The coefficients q_m with rules of their own, and the mirror that keeps each of them.
 pub const Q_RULES: [(usize, Mirror); 2] = [(4, Mirror::Line), (5, Mirror::Diagonal)];
 
 /// The rules of one valence; symmetric to the last bit.

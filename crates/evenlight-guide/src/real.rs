@@ -1,13 +1,13 @@
 //! Numbers of about 31 digits.
 //!
 //! A [`Real`] is an unevaluated sum of two `f64` ("double-double"). Sums, products and square
-//! roots are those of the crate `twofloat`, exact to a relative 2^-102 or better. Quotients are
-//! our own: `twofloat` 0.8.4 divides by way of `1 - y * (1/y)`, rounded where its source (Joldes,
-//! Muller, Popescu 2017, algorithm 18) has a fused multiply-add, and so keeps 16 digits only.
+//! roots come from the crate `twofloat`, exact to a relative 2^-102 or better. Quotients are
+//! our own: `twofloat` 0.8.4 divides by way of `1 - y * (1/y)` and rounds where its source (Joldes,
+//! Muller, Popescu 2017, algorithm 18) has a fused multiply-add. So it keeps 16 digits only.
 //! Its cosine keeps 22; we need one cosine per valence and sum its series.
 //!
 //! Every operation is made of `+ - * /`, `sqrt` and fused multiply-add on `f64`, which round
-//! alike on every machine: the same tables come out everywhere.
+//! alike on every machine. So the tables are the same everywhere.
 
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};

@@ -207,7 +207,7 @@ impl StepRule {
         row.map_or(Real::ZERO, |row| self.kappa[row][i + 4 * j])
     }
 
-    /// Each weight averaged with that of `other`.
+    /// Each weight averaged with the weight of `other`.
     fn averaged_with(&self, other: &Self) -> Self {
         Self {
             node: self.node,

@@ -64,7 +64,7 @@ use crate::scheme::tables::EgTable;"
         }
     }
 
-    /// Where the table can be seen from.
+    /// The visibility of the table.
     fn visibility(self) -> &'static str {
         match self {
             Self::EvolvingGuide => "pub(super)",

@@ -1,6 +1,6 @@
 //! The table of guided subdivision: the generating matrix and the map of the cap, in integers.
 //!
-//! What a library needs of a valence and cannot compute in a moment is the fit of the guide
+//! For each valence a library cannot compute two things in a moment: the fit of the guide
 //! ([`crate::guided::fit`]) and the choice of the cap's map ([`crate::guided::cap`]). All else, the
 //! characteristic ring and the tables of rings and cap, follows from the cosine of the turn by
 //! `+ - * /` and square roots ([`crate::guided::characteristic`], [`crate::guided::rings`]).
@@ -95,9 +95,9 @@ impl GuidedTable {
 
     /// The sectors r whose weights are listed for a coefficient; -1 is the last.
     ///
-    /// Of p_i0 those from -1 to (n-1)/2, where the nodes of sector r off the lines mirror those of
-    /// sector -1-r, and those on a line those of sector -2-r; of p_ii those from 0 to n/2, where
-    /// they mirror sectors -r and -1-r.
+    /// For p_i0 the sectors from -1 to (n-1)/2: there the nodes of sector r off the lines mirror
+    /// nodes of sector -1-r, and nodes on a line mirror nodes of sector -2-r. For p_ii the sectors
+    /// from 0 to n/2: there the nodes mirror sectors -r and -1-r.
     pub fn listed_sectors(&self, (i, j): (usize, usize)) -> Range<isize> {
         let n = self.valence as isize;
         match j {

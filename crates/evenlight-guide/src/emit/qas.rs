@@ -71,7 +71,7 @@ use crate::scheme::tables::QasTable;"
         )
     }
 
-    /// Where the table can be seen from.
+    /// The visibility of the table.
     fn visibility(self) -> &'static str {
         match self {
             Self::QuadraticAttraction => "pub(super)",
@@ -104,9 +104,9 @@ pub struct QasTable {
 /// One rule of a new node: the numerators of [`StepRule`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeNumerators {
-    /// For each r of [`TURNS`] those of kappa_ij^r, in flat order.
+    /// For each r of [`TURNS`] the numerators of kappa_ij^r, in flat order.
     pub kappa: [[i64; NODES_PER_SECTOR]; 4],
-    /// Those of tau_2..tau_6.
+    /// The numerators of tau_2..tau_6.
     pub tau: [i64; 5],
     /// That of the derived weight of the extraordinary point, rounded by itself.
     pub centre: i64,
@@ -263,7 +263,7 @@ impl NodeNumerators {
         }
     }
 
-    /// That of kappa_ij^r, zero out of reach.
+    /// The numerator of kappa_ij^r, zero out of reach.
     fn kappa(&self, (r, i, j): (isize, usize, usize)) -> i64 {
         let row = TURNS.iter().position(|&turn| turn == r);
         row.map_or(0, |row| self.kappa[row][i + 4 * j])

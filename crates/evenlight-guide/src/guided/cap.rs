@@ -7,7 +7,8 @@
 //! a_v + b_v = 2c (1-u)^2 a_u   on v = 0:     G1, with C1 at the far end u = 1;
 //! ```
 //!
-//! it continues the last ring with C1, and has the guide's second-order data at the centre.
+//! The cap also continues the last ring with C1, and has the guide's second-order data at the
+//! centre.
 //!
 //! **The map.** Rings sample the guide along chi; the cap samples it along a bi-6 map of the
 //! sector ([`cap_map`]) that continues lambda chi with C1, satisfies the G1 condition with its
@@ -25,13 +26,13 @@
 //!   * * x x x r r
 //! ```
 //!
-//! The inner data of a ring are the outer border of the next: so the whole cap depends on the
-//! guide alone, and one table serves all rings. It is [`Cap::sampled`] on one piece of the guide,
-//! followed by [`Cap::joined`], which couples neighbours.
+//! The inner data of a ring are the outer border of the next. So the whole cap depends on the
+//! guide alone, and one table serves all rings. A cap is [`Cap::sampled`] on one piece of the
+//! guide, followed by [`Cap::joined`], which couples neighbours.
 //!
-//! The last ring may also be a bi-5 ring: its inner border is then degree-raised.
+//! The last ring may also be a bi-5 ring; then its inner border is degree-raised.
 //!
-//! DIFFERENCE: the paper counts 14 free parameters of the map and does not tell its last condition.
+//! DIFFERENCE: the paper counts 14 free parameters of the map and does not give its last condition.
 
 use crate::guided::bb::{End, bb_from_taylor, choose, raise, taylor_at};
 use crate::guided::characteristic::CharacteristicRing;

@@ -1,4 +1,4 @@
-//! The characteristic ring of Catmull-Clark subdivision at any speed.
+//! The characteristic ring of Catmull-Clark subdivision at any contraction.
 //!
 //! Catmull-Clark subdivision around an extraordinary point inserts a knot half way between the
 //! point and the first knot line. Inserting it at sigma instead, 0 < sigma < 1, gives a family of
@@ -8,11 +8,11 @@
 //! lambda^2 - sigma (1 + sigma^2 + c (1 - sigma)^2) lambda + sigma^4 = 0,   c = cos(2 pi / n),
 //! ```
 //!
-//! is the speed at which rings contract [KP18-Guided, sec. 6.3]. sigma = 1/2 is Catmull-Clark
+//! is the contraction of the rings [KP18-Guided, sec. 6.3]. sigma = 1/2 is Catmull-Clark
 //! subdivision itself; at every valence some sigma has lambda = 1/2.
 //!
-//! The eigenvectors of lambda are a planar c-net, and the net a ring chi of three bi-3 patches per
-//! sector that lambda chi continues with continuous second derivatives:
+//! The eigenvectors of lambda are a planar c-net. The net defines a ring chi of three bi-3 patches
+//! per sector, and lambda chi continues chi with continuous second derivatives:
 //!
 //! ```text
 //!   v=1     +------+-----+          A = [sigma,1] x [0,sigma]
@@ -28,7 +28,7 @@
 //! of the guide. It is scaled such that the ends of the outer border, chi(1,0) and chi(0,1), are
 //! (1,0) and (0,1).
 //!
-//! DIFFERENCE: the paper takes its other speeds from earlier work that we have not seen; the family
+//! DIFFERENCE: the paper takes other contractions from earlier work we have not seen; the family
 //! by knot insertion at sigma is our reading.
 
 use crate::guided::bb::power;

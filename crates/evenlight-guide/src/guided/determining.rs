@@ -1,8 +1,8 @@
 //! The explicit formulas of the guide: which coefficients are free, and the others from them.
 //!
-//! This is the paper's own description of the space [KP18-Guided, eq. 3, 4, App. A], the twin of
-//! the kernels of [`super::space`] and there to test them: it is one-sided - the quadratic is
-//! given in sector 0 - and less well conditioned.
+//! This is the paper's own description of the space [KP18-Guided, eq. 3, 4, App. A]. It tests the
+//! kernels of [`super::space`], which describe the same space. It is one-sided, as the quadratic is
+//! given in sector 0, and its condition is worse.
 //!
 //! Per line, with a the sector ahead and b the one behind, arguments exchanged so that the first
 //! index runs along the line, and p_i0 = a_i0 = b_i0:

@@ -1,29 +1,29 @@
 //! The guide of a c-net: the fairest one.
 //!
-//! Of all G2 guides whose centre is c_0 ([`CNet::central_point`]) the one is taken that minimises,
-//! for each coordinate,
+//! Among all G2 guides whose centre is c_0 ([`CNet::central_point`]) we take the guide that
+//! minimises, for each coordinate,
 //!
 //! ```text
 //! sum over rings l = 0..3 of E_l   +   10^-4 sum over sectors of F_5(g^s).
 //! ```
 //!
-//! E_l is the unfairness of ring l ([`super::fairness`]) in degree bi-5. The first ring has the net
-//! as its border, and that is where the net enters. F_5, the integral of the squared fifth
-//! derivatives ([`functional`]), settles what the rings hardly see and changes their energy by one
-//! percent; it lowers the condition of the problem from 10^5 to some hundreds.
+//! E_l is the unfairness of ring l ([`super::fairness`]) in degree bi-5. The net enters as the
+//! border of the first ring. F_5, the integral of the squared fifth derivatives ([`functional`]),
+//! determines what the rings hardly depend on, and changes their energy by one percent. It lowers
+//! the condition of the problem from 10^5 to some hundreds.
 //!
 //! All is linear: the guide is the *generating matrix* times the net. Its rows for sector 0 are the
-//! table of the valence; those of the others are turned.
+//! table of the valence; the rows for the other sectors are the same rows, turned.
 //!
 //! # How it is solved
 //!
-//! All is invariant under turns, so guides and nets are taken apart into waves
-//! ([`super::waves`]), and the problem into n/2 + 1 small ones. The waves of one frequency with
-//! centre 0 have an orthonormal basis N of some 36 columns. For the net relative to c_0 the normal
-//! equations are N^T Q N y = -N^T W net, Q and W being those of one sector. With numbers of 31
-//! digits their condition, 10^6 at valence 20, does no harm: the matrix has its mirror symmetry,
-//! which nothing enforces, to 1e-23 at all valences up to 32 and all speeds. A valence takes some
-//! tenths of a second.
+//! All is invariant under turns, so guides and nets fall apart into waves ([`super::waves`]), and
+//! the problem into n/2 + 1 small problems. The waves of one frequency with centre 0 have an
+//! orthonormal basis N of some 36 columns. For the net relative to c_0 the normal equations are
+//! N^T Q N y = -N^T W net, with Q and W of one sector. With numbers of 31 digits their condition,
+//! 10^6 at valence 20, does no harm: nothing enforces the mirror symmetry of the matrix, and it
+//! holds to 1e-23 at all valences up to 32 and all contractions. A valence takes some tenths of a
+//! second.
 //!
 //! DIFFERENCE: the paper's fit is not available to us, see [`super::fairness`]; all surfaces may
 //! differ from its figures.
@@ -177,7 +177,7 @@ mod tests {
     use crate::guided::symmetry::symmetrised;
     use crate::linear::largest;
 
-    /// Those of Catmull-Clark subdivision, and some of other speeds.
+    /// The rings of Catmull-Clark subdivision, and some of other contractions.
     fn characteristic_rings() -> Vec<CharacteristicRing> {
         let of_speed = |(n, percent)| {
             let sigma = sigma_of(n, Real::ratio(percent, 100));

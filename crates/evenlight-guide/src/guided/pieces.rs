@@ -1,7 +1,7 @@
 //! Rings of lower degree: a segment of degree 5 replaced by a spline of degree 4 or 3.
 //!
-//! A quintic on `[0,1]` is given by position, first and second derivative at both ends, six
-//! numbers. So are the splines
+//! Position, first and second derivative at both ends, six numbers, determine a quintic on `[0,1]`.
+//! They also determine the splines
 //!
 //! ```text
 //!   bi-4:   0 ------------ x ----------- 1        2 pieces, C3 at the joint

@@ -14,11 +14,11 @@
 //!   ------------+-------------      corners and are averaged
 //! ```
 //!
-//! Neighbouring patches have the jets at common corners in common, and the borders in one piece;
-//! that makes all joins C2. In every ring but the first the border are the 3 x 3 jets at the ends
-//! of the unit square's outer edges, of g composed with the continuation of chi outwards: the inner
-//! data of the ring before, so that the rings join C2. In the first ring it is the second-order
-//! data of the surrounding surface.
+//! Neighbouring patches share the jets at common corners, and their border is one piece; so all
+//! joins are C2. In the first ring the border is the second-order data of the surrounding surface.
+//! In all later rings it comes from the 3 x 3 jets at the ends of the unit square's outer edges, of
+//! g composed with the continuation of chi outwards. These are the inner data of the ring before,
+//! so that the rings join C2.
 //!
 //! The tables act on the 36 coefficients of one piece of the guide *at the level of the ring*,
 //! g(lambda^l .), so all later rings share one table. In degree bi-6 the rings of a quadratic q are
@@ -60,7 +60,7 @@ impl Form {
         }
     }
 
-    /// The degree in which rings are sampled, and of which the tables are: 6 or 5.
+    /// The degree of the samples and of the tables: 6 or 5.
     pub fn sampled_degree(self) -> usize {
         self.degree().max(5)
     }
@@ -116,7 +116,7 @@ pub struct Rings {
     pub valence: usize,
     /// The contraction per ring.
     pub lambda: Real,
-    /// What the patches are.
+    /// The kind of the patches.
     pub form: Form,
     /// Ring 1, 2, ..: on the 36 coefficients of the piece of the sector, at the level of the ring.
     pub later: Squares,

@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn every_solution_is_found_and_contradictions_are_told() {
-        // x + 2y + 3z = r twice, in different words.
+        // x + 2y + 3z = r twice, written differently.
         let matrix = Matrix::from_fractions(&[[1, 2, 3], [2, 4, 6]], 1);
         let right = Matrix::from_fractions(&[[6], [12]], 1);
         let found = solutions(&matrix, &right).unwrap();

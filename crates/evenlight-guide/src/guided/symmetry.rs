@@ -1,4 +1,4 @@
-//! The mirrors of a sector, and what fits a guide averaged with its images in them.
+//! The mirrors of a sector, and the matrix that fits a guide, averaged with its mirror images.
 //!
 //! The rows of a generating matrix, one for each coefficient p_ij of the piece of sector 0, weigh
 //! the nodes of a c-net. Two mirrors keep a net's rules:

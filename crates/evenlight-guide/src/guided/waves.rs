@@ -2,9 +2,9 @@
 //!
 //! The space of guides is invariant under turns, so it is the sum of *waves*: complex guides whose
 //! piece of sector s is omega^(m s) times that of sector 0, omega = exp(2 pi i / n), with the
-//! frequencies m = 0, .., n-1. A wave is known by one piece, 36 complex coefficients, and whatever
-//! is computed of all guides falls apart into small problems, one for each frequency; those of m
-//! and n - m are conjugate.
+//! frequencies m = 0, .., n-1. One piece, 36 complex coefficients, determines a wave. Every problem
+//! on all guides falls apart into small problems, one for each frequency; the problems of m and
+//! n - m are conjugate.
 //!
 //! A complex column is kept as twice as many real rows, the real parts first.
 

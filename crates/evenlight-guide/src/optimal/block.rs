@@ -68,7 +68,7 @@ impl Complex {
 pub struct HalfTurns(Vec<Complex>);
 
 impl HalfTurns {
-    /// Those of valence n >= 2.
+    /// The powers for valence n >= 2.
     pub fn new(valence: usize) -> Self {
         let cos = Real::cos_of_turn(2 * valence);
         let one = Complex { re: Real::ONE, im: Real::ZERO };
@@ -83,7 +83,7 @@ impl HalfTurns {
     }
 }
 
-/// What a node is to the mirror in the diagonal of its sector.
+/// How the mirror in the diagonal of its sector maps a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// On the diagonal.
@@ -160,7 +160,7 @@ impl Block {
         self.parts_on(&NODES, combination, self.phase(NODES[node], 0))
     }
 
-    /// Likewise on a c-net.
+    /// A combination that belongs to a node of a c-net, likewise.
     pub fn node_parts_on_cnet(&self, node: usize, combination: &Combination) -> Parts {
         self.parts_on(&CNET_NODES, combination, self.phase(NODES[node], 0))
     }

@@ -1,24 +1,24 @@
-//! The nets of quadratics: those that refinement shrinks as it should.
+//! The nets of quadratics, which refinement shrinks like the quadratics themselves.
 //!
-//! Of each quadratic m = z, z^2, |z|^2 in the complex coordinate z of the characteristic map (its
-//! real and imaginary parts span them all) we want a net d with the surface of m, as well as
-//! splines can have it. The characteristic net itself has z. For z^2 and |z|^2 we ask that
-//! refinement multiply d by lambda^2, exactly:
+//! Let z be the complex coordinate of the characteristic map. The real and imaginary parts of
+//! m = z, z^2, |z|^2 span all quadratics. For each m we want a net d whose surface is as near to m
+//! as splines allow. For z this is the characteristic net. For z^2 and |z|^2 refinement must
+//! multiply d by lambda^2, exactly:
 //!
 //! ```text
 //!   (A d)_k = lambda^2 d_k   at the regular nodes k;   the inner nodes get lambda^2 d_k by decree
 //! ```
 //!
-//! which leaves the six inner nodes of the block free, d = N d_inner. Among these nets we take the
-//! one with the least
+//! This leaves the six inner nodes of the block free, d = N d_inner. Among these nets we take the
+//! net with the least
 //!
 //! ```text
 //!   |D^3 ring|^2 + .03 |D^2 ring|^2    under    <D^2 ring, D^2 m> = |D^2 m|^2
 //! ```
 //!
-//! ring being that of d and lambda^2 d. By the condition ring and m have equal amplitude, and with
-//! it the second term is .03 |D^2 (ring - m)|^2 but for a constant: the ring is smooth first, and
-//! near m second. At n = 4 the net is that of the monomial itself, and the ring equals m.
+//! where the ring is made of d and lambda^2 d. By the condition ring and m have equal amplitude, so
+//! the second term is .03 |D^2 (ring - m)|^2 up to a constant: the ring is smooth first, and near
+//! m second. At n = 4 the net is the net of the monomial itself, and the ring equals m.
 
 use crate::guided::characteristic::CharacteristicRing;
 use crate::guided::net::CNet;
@@ -45,7 +45,7 @@ pub enum Monomial {
 }
 
 impl Monomial {
-    /// Those whose net is a wave of frequency `block.frequency`.
+    /// The monomials whose net is a wave of frequency `block.frequency`.
     pub fn of(block: &Block) -> Vec<Self> {
         match (block.frequency, block.valence) {
             (0, _) => vec![Self::Norm],

@@ -18,12 +18,12 @@ use crate::optimal::block::{Block, HalfTurns};
 use crate::optimal::nets::{RingPatch, Spline};
 use crate::real::Real;
 
-/// The energies of one patch of a ring, with what is needed to compare it with quadratics.
+/// The energies of one patch of a ring, and the products that compare it with quadratics.
 #[derive(Clone, Debug)]
 pub struct PatchEnergy {
     /// The patch.
     pub patch: RingPatch,
-    /// How often its like occurs in a sector: square A twice, as itself and as square C.
+    /// How often it counts in a sector: square A twice, for itself and for square C.
     pub count: Real,
     /// |D^2 f|^2 as a matrix on the BB coefficients.
     pub second: Matrix,

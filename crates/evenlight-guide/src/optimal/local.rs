@@ -1,23 +1,23 @@
-//! The best gain that is local: on the nodes of Quadratic-Attraction rules only.
+//! The best local gain: it uses the nodes of Quadratic-Attraction rules only.
 //!
-//! The rule of the inner node (h, k), h < 3, may use the 21 nodes of its sector's L-net; that of a
-//! node on line s those of the L-nets on both sides. By the mirrors there are 81 weights. A gain of
-//! this form cannot be optimal for every e, so the initial nets must be agreed on: all nets that
-//! come from a c-net, each weighted such that the best gain of all would spend the same on it,
+//! The rule of the inner node (h, k), h < 3, may use the 21 nodes of its sector's L-net; the rule
+//! of a node on line s may use the L-nets on both sides. By the mirrors there are 81 weights. A
+//! gain of this form cannot be optimal for every e, so we must choose the initial nets: all nets
+//! that come from a c-net, weighted such that each costs the same with the optimal gain,
 //!
 //! ```text
 //!   least  sum over blocks of  trace(P(K) S),    S = E (E^T P* E)^-1 E^T,
 //! ```
 //!
-//! the columns of E spanning the c-nets beyond their quadratics. Where the gradient vanishes,
+//! where the columns of E span the c-nets beyond their quadratics. The gradient vanishes if
 //!
 //! ```text
 //!   the projection to local weights of  ((R + B^T P B) K + B^T P A + X^T) C  =  0,
 //!   C = sum over l of (A + B K)^l S ((A + B K)^T)^l,
 //! ```
 //!
-//! a linear system for K if P and C are those of the last K; iterating it converges, by some digits
-//! in five steps.
+//! This is a linear system for K if P and C are taken from the last K. Iterating it converges, by
+//! some digits in five steps.
 
 use crate::linear::Matrix;
 use crate::nets::Mirror;
@@ -30,17 +30,17 @@ use crate::rules::{RULES, number_of};
 /// The iteration ends with a step that changes no weight by more than this.
 const TOLERANCE: f64 = 1e-20;
 
-/// The steps that are extrapolated from.
+/// The number of steps from which the iteration extrapolates.
 const MEMORY: usize = 6;
 
 /// By how much, relatively, a step may cost more than the last one.
 const SLACK: f64 = 1e-9;
 
-/// The weight of nets in general, for bi-3 splines. Nets from c-nets never move some of the nodes
-/// there alone, and would leave weights undetermined.
+/// The weight of general nets, for bi-3 splines. Nets from c-nets never move some of their nodes
+/// alone, and would leave weights undetermined.
 const ALL_NETS: f64 = 1e-3;
 
-/// The steps after which it is given up.
+/// The steps after which the iteration stops without success.
 const MAX_STEPS: usize = 200;
 
 /// The footprint: one weight for each orbit of nodes under the mirror that keeps the rule.
@@ -54,7 +54,7 @@ pub struct Footprint {
 const OWN: [(usize, usize); 5] = [(1, 1), (2, 1), (2, 2), (3, 1), (3, 2)];
 
 impl Footprint {
-    /// That of Quadratic-Attraction rules.
+    /// The footprint of Quadratic-Attraction rules.
     pub fn of_l_nets() -> Self {
         let weights = OWN.into_iter().flat_map(|(h, k)| {
             let mut nodes: Vec<_> = l_net(0).collect();
@@ -183,7 +183,7 @@ struct Part<'a> {
     entries: Vec<Vec<(usize, usize, Real)>>,
 }
 
-/// What is known of a gain.
+/// The numbers that belong to a gain.
 struct Evaluation {
     /// The value of the functional.
     value: Real,

@@ -1,8 +1,7 @@
 //! The two kinds of nets: C2 splines of degree 4 and cubic splines on the half-step grid.
 //!
-//! Both have the twelve nodes per sector of [`crate::nets`], at the same places. What differs is
-//! how a net is refined where everything is regular, how it comes from a c-net, and the form of a
-//! ring.
+//! Both have the twelve nodes per sector of [`crate::nets`], at the same places. They differ in
+//! three things: regular refinement, the map from a c-net, and the form of a ring.
 
 use crate::guided::net::CNet;
 use crate::linear::Matrix;
@@ -13,7 +12,7 @@ use crate::spline;
 /// A linear combination of the nodes of a net: weights of node number `node` of sector s + turn.
 pub type Combination = Vec<((isize, usize), Real)>;
 
-/// What the nodes of a d-net are control points of.
+/// The splines whose control points are the nodes of a d-net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spline {
     /// C2 splines of degree 4, every second node on a double knot.
@@ -27,9 +26,9 @@ pub enum Spline {
 pub struct RingPatch {
     /// The part of the square that it covers, in halves if squares are split: [u, v].
     pub part: [usize; 2],
-    /// By coefficient, number (degree + 1) i + j with i along u, those of the old net.
+    /// For each coefficient, number (degree + 1) i + j with i along u, the nodes of the old net.
     pub old: Vec<Combination>,
-    /// Those of the new net.
+    /// Likewise the nodes of the new net.
     pub new: Vec<Combination>,
 }
 

@@ -7,16 +7,16 @@
 //!   E(e, v) = |D^3 ring|^2 + |D^2 ring|^2 + .001 |e|^2  =  e^T Q e + 2 e^T X v + v^T R v,
 //! ```
 //!
-//! and, lambda^2 being put into A and B, v = K e with the least J = e^T P e for every e at once:
+//! With the factor lambda^-2 in A and B, v = K e has the least J = e^T P e for every e at once:
 //!
 //! ```text
 //!   P = Q + A^T P A - (A^T P B + X) (R + B^T P B)^-1 (B^T P A + X^T),
 //!   K = - (R + B^T P B)^-1 (B^T P A + X^T).
 //! ```
 //!
-//! The second derivatives keep e from hiding in nets that look like quadratics; without them its
-//! slowest mode would decay by .97 lambda^2 instead of .8 lambda^2 in a step. The last term makes
-//! all of e count.
+//! Without the second derivatives nets that look like quadratics would have almost no energy, and
+//! the slowest mode of e would decay by .97 lambda^2 instead of .8 lambda^2 in a step. The last
+//! term gives every part of e a cost.
 
 use crate::linear::Matrix;
 use crate::nets::NODES_PER_SECTOR;
@@ -29,13 +29,13 @@ use crate::real::Real;
 /// The weight of |e|^2 in the cost, a ratio.
 const SIZE: (i32, i32) = (1, 1000);
 
-/// The doublings after which a sum that has not converged is given up: 2^14 rings.
+/// The doublings after which a sum counts as not convergent: 2^14 rings.
 const MAX_DOUBLINGS: usize = 14;
 
 /// One Fourier block of the regulator.
 #[derive(Clone, Debug)]
 pub struct Regulator {
-    /// Which block.
+    /// The block.
     pub block: Block,
     /// The subdominant eigenvalue lambda.
     pub lambda: Real,
@@ -57,7 +57,7 @@ pub fn regulators(valence: usize, spline: Spline) -> Vec<Regulator> {
     blocks.map(|block| Regulator::new(block, spline, &energies)).collect()
 }
 
-/// What a gain costs: its cost-to-go P and closed loop.
+/// The cost of a gain: its cost-to-go P and closed loop.
 #[derive(Clone, Debug)]
 pub struct Cost {
     /// P.
@@ -119,7 +119,7 @@ impl Regulator {
         [&self.control + &(&weighted * &b), &(&weighted * &a) + &self.cross.transposed()]
     }
 
-    /// The optimal P, by doubling: after step k it is that of 2^k rings.
+    /// The optimal P, by doubling: after step k it is the P of 2^k rings.
     ///
     /// First v := v - R^-1 X^T e removes the cross term. Then with G = B R^-1 B^T and P_0 = Q,
     ///
@@ -150,7 +150,7 @@ impl Regulator {
         to_go
     }
 
-    /// The gain K that is optimal if `to_go` is what follows.
+    /// The gain K that is optimal if `to_go` is the cost of all later rings.
     pub fn gain(&self, to_go: &Matrix) -> Matrix {
         let [control, cross] = self.slopes(to_go);
         control.solve(&cross.scaled(-Real::ONE)).expect("positive definite")

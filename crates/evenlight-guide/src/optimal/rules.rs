@@ -6,10 +6,9 @@
 //!   q = p + 2 Re(a z) + 2 Re(b z^2) + c |z|^2,
 //! ```
 //!
-//! a and b being complex numbers that the waves of frequency 1 and 2 of the net determine, and c a
-//! real one that its mean over the sectors does. With u along line s-1 and v along line s,
-//! z = u exp(-i pi/n) + v exp(i pi/n), and so the five numbers are those of q_2..q_6 in other
-//! words.
+//! The waves of frequency 1 and 2 of the net determine the complex numbers a and b; its mean over
+//! the sectors determines the real number c. With u along line s-1 and v along line s,
+//! z = u exp(-i pi/n) + v exp(i pi/n), and so the five real numbers of a, b, c determine q_2..q_6.
 //!
 //! The weights of p are one minus the sum of the others: everything here concerns nets less p.
 
@@ -54,8 +53,8 @@ pub fn fair(valence: usize, spline: Spline) -> QasRules {
     QasRules { valence, nodes: symmetrised(&nodes), q: quadratic_rules(&regulators, &costs) }
 }
 
-/// The six rules of fair4d, in the order of [`RULES`]: the best gain of all, with q found anew in
-/// each step.
+/// The six rules of fair4d, in the order of [`RULES`]: the optimal gain, with q found anew in each
+/// step.
 pub fn fair_evolving(valence: usize) -> [NetRule; 6] {
     let regulators = regulators(valence, Spline::BiQuartic);
     let steps: Vec<Matrix> = regulators.iter().map(evolving_step).collect();
@@ -84,7 +83,7 @@ fn net_rule(valence: usize, weight: impl Fn(usize, usize) -> Real) -> NetRule {
     NetRule { on_net, on_centre: Real::ONE - sum }
 }
 
-/// The weights of a footprint, with those of rule 12 as the mirror images of those of rule 21.
+/// The weights of a footprint; the weights of rule 12 are the mirror images of those of rule 21.
 fn kappa(footprint: &Footprint, weights: &[Real]) -> [[[Real; NODES_PER_SECTOR]; 4]; 6] {
     let mut kappa = [[[Real::ZERO; NODES_PER_SECTOR]; 4]; 6];
     let mut set = |rule: usize, (r, node): (isize, usize), weight: Real| {
@@ -102,8 +101,7 @@ fn kappa(footprint: &Footprint, weights: &[Real]) -> [[[Real; NODES_PER_SECTOR];
     kappa
 }
 
-/// The weights tau of q_2..q_6 in rule `number`: those of the five parameters, by those of
-/// q_2..q_6.
+/// The weights tau of q_2..q_6 in rule `number`, from the weights of the five parameters.
 fn tau(regulators: &[Regulator], gains: &[Matrix], number: usize) -> [Real; 5] {
     let mut on_parameters = Matrix::zeros(1, PARAMETERS);
     for (regulator, gain) in regulators.iter().zip(gains) {

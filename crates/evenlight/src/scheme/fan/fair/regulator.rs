@@ -70,8 +70,8 @@ impl Regulator {
         nodes
     }
 
-    /// The cost-to-go P and the gain K of the nets in the range of `allowed`, a projection that
-    /// commutes with refinement.
+    /// The cost-to-go P and the gain K of the nets in the range of `allowed`, a projection whose
+    /// range refinement maps to itself.
     pub(super) fn optimum(&self, forms: &RingForms, allowed: &Matrix) -> [Matrix; 2] {
         let (n, m) = (self.net.num_nodes(), self.free.len());
         let mut energy = forms.second.clone();
