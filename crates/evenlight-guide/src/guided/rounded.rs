@@ -1,7 +1,7 @@
 //! The numbers that a surface needs for a valence and a contraction, computed when they are asked
 //! for and rounded once.
 //!
-//! The tables of [`super::table`] hold Catmull-Clark's contraction and valences up to 16. A library
+//! The tables of [`crate::emit`] hold Catmull-Clark's contraction and valences up to 16. A library
 //! takes everything else from here; valence 32 needs half a second.
 
 use std::ops::RangeInclusive;
