@@ -3,6 +3,8 @@
 //!
 //! Plain loops in a fixed order, so that the results have the same bits everywhere.
 
+use crate::pairs::pairs;
+
 use std::ops::{Index, IndexMut};
 
 /// A matrix, stored by rows.
@@ -41,7 +43,7 @@ impl Matrix {
 
     pub(crate) fn transposed(&self) -> Self {
         let mut result = Self::zeros(self.columns, self.rows);
-        for (i, j) in (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| (i, j))) {
+        for (i, j) in pairs(self.rows, self.columns) {
             result[(j, i)] = self[(i, j)];
         }
         result

@@ -109,6 +109,7 @@ pub mod io;
 pub mod mesh;
 mod names;
 pub mod net;
+mod pairs;
 pub mod patch;
 #[cfg(feature = "picture")]
 pub mod picture;

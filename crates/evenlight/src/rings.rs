@@ -414,33 +414,47 @@ impl<const N: usize> Rings<N> {
     #[inline]
     fn eval_in_patch<A: Answer<N>>(&self, ring: usize, s: usize, place: PatchParameters) -> A {
         let PatchParameters { which, at, size } = place;
-        self.with_coefs(ring, s, which, |scale, coefs| {
-            let jet = patch_jet(A::ORDER, self.rules.rules.degree, coefs, at);
-            self.placed(scale, size, &jet)
-        })
+        let mut deep = None;
+        let (scale, coefs) = self.scale_and_coefs(ring, s, which, &mut deep);
+        let jet = patch_jet(A::ORDER, self.rules.rules.degree, coefs, at);
+        self.placed(scale, size, &jet)
     }
 
-    /// Calls `f` with the BB coefficients of a patch.
+    /// The scale and the BB coefficients of a patch; those of rings that are not kept are put in
+    /// `deep`.
     #[inline]
-    fn with_coefs<T>(
-        &self,
+    fn scale_and_coefs<'a>(
+        &'a self,
         ring: usize,
         s: usize,
         which: usize,
-        f: impl FnOnce(&RingScale<N>, &[[f64; N]]) -> T,
-    ) -> T {
-        let rules = &self.rules.rules;
+        deep: &'a mut Option<(RingScale<N>, Vec<[f64; N]>)>,
+    ) -> (&'a RingScale<N>, &'a [[f64; N]]) {
         if ring >= CACHED_RINGS {
-            return self.with_ring(ring, |net, r| f(&r.scale, &self.coefs(net, r, s, which)));
+            let (scale, coefs) = deep.insert(self.deep_coefs(ring, s, which));
+            return (scale, coefs);
         }
         let r = self.cached_ring(ring);
-        let all = || -> Coefs<N> {
-            let net = self.net_in_front(ring);
-            (0..self.patches_per_sector()).flat_map(|k| self.coefs(net, r, s, k)).collect()
-        };
-        let coefs = r.sectors[s].get_or_init(all);
-        let per_patch = (rules.degree + 1) * (rules.degree + 1);
-        f(&r.scale, &coefs[which * per_patch..][..per_patch])
+        let coefs = r.sectors[s].get_or_init(|| self.coefs_of_sector(ring, s));
+        let per_patch = (self.rules.rules.degree + 1) * (self.rules.rules.degree + 1);
+        (&r.scale, &coefs[which * per_patch..][..per_patch])
+    }
+
+    /// The scale and the coefficients of a patch of a ring that is not kept.
+    #[cold]
+    fn deep_coefs(&self, ring: usize, s: usize, which: usize) -> (RingScale<N>, Vec<[f64; N]>) {
+        self.with_ring(ring, |net, r| (r.scale, self.coefs(net, r, s, which)))
+    }
+
+    /// The coefficients of all patches of a sector of a ring that is kept.
+    #[cold]
+    fn coefs_of_sector(&self, ring: usize, s: usize) -> Coefs<N> {
+        let (net, r) = (self.net_in_front(ring), self.cached_ring(ring));
+        let mut coefs = Vec::new();
+        for which in 0..self.patches_per_sector() {
+            coefs.extend_from_slice(&self.coefs(net, r, s, which));
+        }
+        coefs.into()
     }
 
     fn at_center<A: Answer<N>>(&self) -> A {

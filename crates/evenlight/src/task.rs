@@ -207,13 +207,19 @@ pub(crate) fn for_each_chunk<T: Send>(
     }
     let chunks = Mutex::new(items.chunks_mut(len).enumerate());
     let next = || chunks.lock().unwrap_or_else(PoisonError::into_inner).next();
+    on_threads(threads, &|| {
+        let Some((k, chunk)) = next() else { return false };
+        f(k * len, chunk);
+        true
+    });
+}
+
+/// Calls `take_one` on so many threads until nothing is left: it does one part of the work, or says
+/// `false`. One function for all kinds of work: threads are much code.
+fn on_threads(threads: usize, take_one: &(dyn Fn() -> bool + Sync)) {
     let work = || {
         let alone = Context { threads: NonZero::<usize>::MIN, watch: None };
-        alone.during(|| {
-            while let Some((k, chunk)) = next() {
-                f(k * len, chunk);
-            }
-        });
+        alone.during(|| while take_one() {});
     };
     std::thread::scope(|scope| {
         for _ in 1..threads {

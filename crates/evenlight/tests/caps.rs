@@ -1,4 +1,5 @@
 //! Caps: what they promise, for every scheme, degree and number of rings.
+#![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod golden;
 mod nets;

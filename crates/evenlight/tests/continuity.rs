@@ -1,5 +1,6 @@
 //! All pieces of a surface join C2, whatever their kinds and levels: derivatives up to order two
 //! in matched parameters agree across every patch border, except at extraordinary points.
+#![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod common;
 
@@ -73,12 +74,12 @@ fn rings_join_c2_at_any_depth() {
 /// Pairs of patches of a ring and the next that touch along a = 1/2 of the outer one.
 fn borders(rings: &Rings) -> Vec<(usize, usize)> {
     let all = || 0..rings.patches_per_sector();
-    let outer = all().filter(|&p| rings.patch_domain(p).unwrap()[0][0] == 0.5);
-    let inner = all().filter(|&p| rings.patch_domain(p).unwrap()[0][1] == 1.0);
+    let domain = |p: usize| rings.patch_domain(p).expect("there is such a patch");
+    let outer = all().filter(|&p| domain(p)[0][0] == 0.5);
+    let inner = all().filter(|&p| domain(p)[0][1] == 1.0);
     let inner: Vec<usize> = inner.collect();
     let touch = |p: usize, q: usize| {
-        let ([_, [p0, p1]], [_, [q0, q1]]) =
-            (rings.patch_domain(p).unwrap(), rings.patch_domain(q).unwrap());
+        let ([_, [p0, p1]], [_, [q0, q1]]) = (domain(p), domain(q));
         let middle = 0.25 * (q0 + q1);
         p0 <= middle && middle <= p1
     };

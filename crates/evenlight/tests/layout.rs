@@ -1,4 +1,5 @@
 //! Topology apart from values: new poses are what a fresh build is, and nothing old remains.
+#![allow(clippy::mutable_key_type, reason = "what a layout has of a cache is not hashed")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot make its cages fails")]
 
 mod common;

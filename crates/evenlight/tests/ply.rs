@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use evenlight::Mesh;
-use evenlight::io::ply::{self, Encoding, Place, Ply};
+use evenlight::io::ply::{self, Encoding, Ply, PlyPlace};
 use evenlight::mesh::{BoundaryRule, Interpolation, Primvar};
 use proptest::prelude::*;
 
@@ -139,7 +139,7 @@ fn binary_files_have_the_order_of_bytes_that_they_say() {
     let at = little.len() - 4;
     little[at] = 3;
     let fault = ply::read(&little).unwrap_err();
-    assert_eq!((fault.place, fault.item), (Place::Byte(at), Some(("face".to_owned(), 0))));
+    assert_eq!((fault.place, fault.item), (PlyPlace::Byte(at), Some(("face".to_owned(), 0))));
     for len in header("big").len()..big.len() {
         let fault = ply::read(&big[..len]).unwrap_err();
         assert!(fault.message.starts_with("the file ends before its last element"));

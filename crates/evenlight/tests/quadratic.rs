@@ -1,5 +1,6 @@
 //! The quadratic q of Quadratic-Attraction subdivision: that it is one for all sectors, that the
 //! surface tends to it with bounded curvature, and that a designer may change it.
+#![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod common;
 mod nets;

@@ -1,4 +1,5 @@
 //! The measures of shape: what they must not depend on, and numbers of an independent program.
+#![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod common;
 mod nets;

@@ -1,8 +1,8 @@
 //! The numbers that a surface needs for a valence and a contraction, computed when they are asked
 //! for and rounded once.
 //!
-//! The tables of [`crate::emit`] hold Catmull-Clark's contraction and valences up to 16. A library
-//! takes everything else from here; valence 32 needs half a second.
+//! The tables of [`emit`](crate::emit) hold Catmull-Clark's contraction and valences up to 16. A
+//! library takes everything else from here; valence 32 needs half a second.
 
 use std::ops::RangeInclusive;
 

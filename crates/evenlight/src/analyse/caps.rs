@@ -17,7 +17,7 @@
 
 use super::curvature::{Range, RingCurvature, curvature_over};
 use super::defect::Defect;
-use crate::cap::{Cap, Lines};
+use crate::cap::{Cap, FanLines};
 use crate::patch::SurfacePoint;
 use crate::point::{norm, sub};
 use crate::rings::Rings;
@@ -151,7 +151,7 @@ impl Around<'_> {
     }
 
     fn lines(self) -> Defect {
-        let lines = Lines::of(self.rings.rules());
+        let lines = FanLines::of(self.rings.rules());
         let at = |s: usize, u: f64| {
             Defect::between(&self.eval(s, u, 0.0), &self.eval(lines.behind(s), 0.0, u))
         };

@@ -13,6 +13,7 @@
 //!   +-------+     +---+---+
 //! ```
 
+use crate::pairs::pairs;
 use crate::patch::Patch;
 use crate::patch::basis::binomial;
 
@@ -58,7 +59,7 @@ impl Polynomial {
     }
 
     fn from_fn(degree: [usize; 2], f: impl Fn(usize, usize) -> f64) -> Self {
-        let indices = (0..=degree[0]).flat_map(|i| (0..=degree[1]).map(move |j| (i, j)));
+        let indices = pairs(degree[0] + 1, degree[1] + 1);
         Self { degree, coefs: indices.map(|(i, j)| f(i, j)).collect() }
     }
 

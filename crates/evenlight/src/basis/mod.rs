@@ -13,7 +13,7 @@
 
 mod eigen;
 mod guide;
-mod layout;
+mod slots;
 mod space;
 
 pub use crate::sparse::Stencils;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::eigen::Eigenfunctions;
-use super::layout::{Combination, LAYERS, Layout};
+use super::slots::{Combination, LAYERS, Slots};
 use super::{jet_of_patch, value_alone};
 use crate::net::CNET_NODES;
 use crate::patch::Jet;
@@ -59,12 +59,12 @@ pub struct RefinableSpace {
 #[derive(Debug)]
 struct Common {
     eigen: Eigenfunctions,
-    layout: Layout,
+    layout: Slots,
     /// For each square and coefficient what determines it.
     patches: [Vec<Source>; 3],
 }
 
-/// What determines a coefficient of a ring; numbers are slots of [`Layout`].
+/// What determines a coefficient of a ring; numbers are slots of [`Slots`].
 #[derive(Debug)]
 enum Source {
     /// The functions of the level before the ring.
@@ -155,7 +155,7 @@ impl RefinableSpace {
     ) -> Option<Self> {
         let degree = kind.guided_degree().filter(|&degree| degree >= 5 && rings <= MAX_RINGS)?;
         let eigen = Eigenfunctions::with_contraction(kind, contraction, valence)?;
-        let layout = Layout::new(degree, eigen.sigma());
+        let layout = Slots::new(degree, eigen.sigma());
         let patches = [0, 1, 2].map(|square| sources(&eigen, layout, square));
         Some(Self { common: Arc::new(Common { eigen, layout, patches }), rings })
     }
@@ -544,7 +544,7 @@ impl RefinableSpace {
 }
 
 /// What determines the coefficients of a square.
-fn sources(eigen: &Eigenfunctions, layout: Layout, square: usize) -> Vec<Source> {
+fn sources(eigen: &Eigenfunctions, layout: Slots, square: usize) -> Vec<Source> {
     let order = layout.degree + 1;
     let coefs = (0..order * order).map(|at| (at, [at / order, at % order]));
     let source = |(at, index)| match layout.coefficient((square, index)) {

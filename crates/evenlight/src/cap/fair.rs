@@ -2,16 +2,16 @@
 //!
 //! ```text
 //!   line s+1
-//!   1 +-----+-----+      The net behind the last ring is a bi-3 spline between 1/2 and 1 (x), if
-//!     |  x  |  x  |      the node of the crease stands for the centre: there the surface is C2.
-//!     +-----+-----+      What is left is a hole with one cubic along each outer edge, as behind
-//!     |  o  |  x  |      Catmull-Clark's rings, and o a plain cap.
+//!   1 +-----+-----+      Between 1/2 and 1 (x) the net behind the last ring is a bi-3 spline, with
+//!     |  x  |  x  |      the node of the crease in the place of the centre. There the surface
+//!     +-----+-----+      is C2 like the rings. What is left is a hole with one cubic along each
+//!     |  o  |  x  |      outer edge, as behind Catmull-Clark's rings, and o, a plain cap.
 //!     +-----+-----+ 1
 //!      line s
 //! ```
 
 use super::CapKind;
-use super::plain::{LineEnd, Lines, PlainCap};
+use super::plain::{FanLines, LineEnd, PlainCap};
 use super::spline::Space;
 use crate::angle::{cosine, sine};
 use crate::patch::Patch;
@@ -22,9 +22,9 @@ use crate::scheme::FanLimit;
 /// The rules of the caps behind the fair rings of one number of faces.
 #[derive(Clone, Debug)]
 pub(crate) struct FairCap {
-    lines: Lines,
+    lines: FanLines,
     inside: PlainCap,
-    /// The length of the tangents of lines across the crease; the length of y is 1.
+    /// The length of the tangents of lines across the crease, that of y being 1.
     across: f64,
 }
 
@@ -32,9 +32,9 @@ pub(crate) struct FairCap {
 type Cells<const N: usize> = [Vec<[f64; N]>; 3];
 
 impl FairCap {
-    /// The rules in degree bi-3 if the options ask for it, else bi-4.
+    /// Bi-3 if that is asked for, else bi-4.
     pub(super) fn new(rules: &ValenceRules, limit: &FanLimit, kind: CapKind) -> Self {
-        let lines = Lines::of(rules);
+        let lines = FanLines::of(rules);
         let cells = limit.cells(&rules.subdominant().characteristic_net());
         let outside: Vec<Vec<Vector>> = cells.iter().map(outside).collect();
         let end = |line: usize| LineEnd::of(&outside, lines, line).tangent(false)[1];

@@ -48,7 +48,7 @@ use crate::patch::{Answer, Jet, Patch, Shape, SurfacePoint};
 use crate::rings::{MAX_RINGS, Rings, ValenceRules};
 use crate::scheme::{Rules, SchemeKind};
 use fair::FairCap;
-pub(crate) use plain::Lines;
+pub(crate) use plain::FanLines;
 use plain::PlainCap;
 use round::RoundCap;
 use spline::Space;

@@ -41,6 +41,7 @@ use super::border::Border;
 use super::spline::{Space, raising};
 use super::{CapKind, MAX_VALENCE, domains};
 use crate::angle::{cosine, sine};
+use crate::pairs::pairs;
 use crate::patch::Patch;
 use crate::point::{add, add_scaled, scale, sub};
 use crate::rings::{Rings, ValenceRules};
@@ -56,7 +57,7 @@ pub(super) fn is_plain(rules: &ValenceRules) -> bool {
 #[derive(Clone, Debug)]
 pub(crate) struct PlainCap {
     degree: usize,
-    lines: Lines,
+    lines: FanLines,
     border: Border,
     /// Whether there is a tangent plane. In it the lines leave the centre at equal angles.
     has_plane: bool,
@@ -66,7 +67,7 @@ pub(crate) struct PlainCap {
 
 /// The lines of a fan of sectors: line s is the first of sector s.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lines {
+pub(crate) struct FanLines {
     sectors: usize,
     /// Whether the last sector ends at line 0; else there is one more line.
     is_closed: bool,
@@ -101,7 +102,7 @@ impl PlainCap {
     pub(super) fn inside(rules: &ValenceRules, kind: CapKind) -> Self {
         let border = Border::new(3, &domains(rules.rules()), Space::polynomials(3));
         let degree = if kind == CapKind::Bi3 { 3 } else { 4 };
-        Self { degree, lines: Lines::of(rules), border, has_plane: true, directions: None }
+        Self { degree, lines: FanLines::of(rules), border, has_plane: true, directions: None }
     }
 
     pub(super) fn space(&self) -> Space {
@@ -223,7 +224,7 @@ impl PlainCap {
     }
 }
 
-impl Lines {
+impl FanLines {
     pub(crate) fn of(rules: &ValenceRules) -> Self {
         let sectors = rules.rules().valence;
         let shape = rules.fan_limit().map(FanLimit::shape);
@@ -330,7 +331,7 @@ impl Lines {
 pub(super) struct LineEnd<const N: usize>([[f64; N]; 3]);
 
 impl<const N: usize> LineEnd<N> {
-    pub(super) fn of(outside: &[Vec<[f64; N]>], lines: Lines, line: usize) -> Self {
+    pub(super) fn of(outside: &[Vec<[f64; N]>], lines: FanLines, line: usize) -> Self {
         // The last line of an open fan is the b-axis of the last sector.
         let (sector, edge) = if line == lines.sectors { (line - 1, 1) } else { (line, 0) };
         Self([0, 1, 2].map(|layer| outside[sector][at(edge, layer, 0)]))
@@ -361,7 +362,7 @@ fn bicubic<const N: usize>(outside: &[[f64; N]], [first, last]: [[f64; N]; 2]) -
         p
     };
     let mut net = [[0.0; N]; 16];
-    for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+    for (i, j) in pairs(4, 4) {
         net[4 * i + j] = match (i >= 2, j >= 2) {
             (true, true) => scale(0.5, add(edge(0, 3 - i, j), edge(1, 3 - j, i))),
             (true, false) => edge(0, 3 - i, j),
@@ -388,7 +389,7 @@ fn line_ends_of_eigenvector(
     rules: &Rules,
     limit: &FanLimit,
     border: &Border,
-    lines: Lines,
+    lines: FanLines,
 ) -> Vec<f64> {
     // The left eigenvector is a net with the same symmetry; a part of it is the right eigenvector.
     let mut net = vec![[0.0]; rules.num_nodes()];

@@ -13,6 +13,7 @@
 use super::sector::{Complex, LAYERS, Sector};
 use super::spline::inverted;
 use crate::dense::{Matrix, constrained_least_squares};
+use crate::pairs::pairs;
 use crate::quadrature::GAUSS_7;
 
 /// The weight of tangency against bending, where tangency cannot be exact.
@@ -103,7 +104,7 @@ pub(super) fn fairness(sector: &Sector, map: &[Complex]) -> Vec<Vec<f64>> {
 pub(super) fn mismatch(sector: &Sector, map: &[Complex], chi: &[Complex]) -> Vec<Vec<f64>> {
     let (dim, pieces) = (sector.space.dim(), sector.space.pieces);
     let mut rows = Vec::new();
-    for (edge, piece) in (0..2).flat_map(|edge| (0..pieces).map(move |piece| (edge, piece))) {
+    for (edge, piece) in pairs(2, pieces) {
         for (t, weight) in GAUSS_7 {
             let end = (pieces - 1, 1.0);
             let at = if edge == 0 { [end, (piece, t)] } else { [(piece, t), end] };
@@ -221,7 +222,7 @@ fn derivatives(zeta: &[Complex], k: usize, taylor: &[Vec<f64>]) -> Vec<Vec<f64>>
 /// The product of two Taylor polynomials, powers from `order` on cut off.
 fn truncated_product(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
     let entry = |i: usize, j: usize| {
-        let splits = (0..=i).flat_map(|k| (0..=j).map(move |l| (k, l)));
+        let splits = pairs(i + 1, j + 1);
         splits.map(|(k, l)| a[k * order + l] * b[(i - k) * order + j - l]).sum()
     };
     (0..order * order).map(|at| entry(at / order, at % order)).collect()

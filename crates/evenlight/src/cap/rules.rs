@@ -19,6 +19,7 @@ use super::sector::{Complex, Sector, product};
 use super::spline::Space;
 use crate::angle::{cosine, sine};
 use crate::dense::{Matrix, constrained_least_squares, triangle};
+use crate::pairs::pairs;
 
 /// How much the jump of second derivatives at the border counts against third derivatives inside.
 const MISMATCH: f64 = 10.0;
@@ -277,7 +278,7 @@ impl<'a> Mode<'a> {
         let (exact, soft) = plane::conditions(sector, self.mode);
         let on_unknowns = |rows: &[Vec<f64>]| Matrix::from_rows(num_coefs, rows).times(&coefs);
         let mut least = objective.select_columns(0..num_coefs).times(&coefs);
-        for (i, k) in (0..least.num_rows()).flat_map(|i| (0..num_data).map(move |k| (i, k))) {
+        for (i, k) in pairs(least.num_rows(), num_data) {
             least[(i, unknowns + k)] += objective[(i, num_coefs + k)];
         }
         let soft = on_unknowns(&soft);

@@ -25,6 +25,7 @@
 use super::spline::{Space, raising};
 use crate::angle::{cosine, sector_cosine, sine};
 use crate::dense::Matrix;
+use crate::pairs::pairs;
 use crate::quadrature::GAUSS_7;
 
 /// A complex number.
@@ -131,7 +132,7 @@ impl Sector {
             let bb = self.to_bb.select_rows(piece * (degree + 1)..(piece + 1) * (degree + 1));
             let across = raise.times(&bb);
             let along = times_square(piece, self.space).times(&bb);
-            for (e, k) in (0..degree + 2).flat_map(|e| (0..self.space.dim()).map(move |k| (e, k))) {
+            for (e, k) in pairs(degree + 2, self.space.dim()) {
                 let row = &mut rows[piece * (degree + 2) + e];
                 let mut put = |i: usize, j: usize, w: f64| {
                     row[self.at(i, j)] += w * real[0];

@@ -11,6 +11,7 @@
 //! coefficients of the first and of the last piece.
 
 use crate::dense::Matrix;
+use crate::pairs::pairs;
 use crate::patch::basis::{bernstein_basis, binomial};
 
 /// A space of splines.
@@ -77,7 +78,7 @@ impl Space {
                 .map(|k| blossom_weights(self.degree, ends, &self.knots(first + k)))
                 .collect();
             let inverse = inverted(&Matrix::from_rows(order, &rows));
-            for (i, k) in (0..order).flat_map(|i| (0..order).map(move |k| (i, k))) {
+            for (i, k) in pairs(order, order) {
                 result[(piece * order + i, first + k)] = inverse[(i, k)];
             }
         }
@@ -173,7 +174,7 @@ pub(super) fn restriction(degree: usize, [t0, t1]: [f64; 2]) -> Matrix {
 /// The matrix of degree raising from `from` to `to`.
 pub(super) fn raising(from: usize, to: usize) -> Matrix {
     let mut result = Matrix::zeros(to + 1, from + 1);
-    for (i, j) in (0..=to).flat_map(|i| (0..=from).map(move |j| (i, j))) {
+    for (i, j) in pairs(to + 1, from + 1) {
         if j <= i && i - j <= to - from {
             result[(i, j)] = binomial(from, j) * binomial(to - from, i - j) / binomial(to, i);
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::carrier::{Carrier, Meeting, QuadOfFace, Side};
-use super::exact::{Exact, Lines, MAX_RINGS, ONE, ratio};
+use super::exact::{AxisLines, Exact, MAX_RINGS, ONE, ratio};
 use super::pair::{Pair, pairs};
 use super::piece::{Numbers, rectangle};
 use super::{
@@ -48,7 +48,7 @@ impl PatchComplex {
     /// So many rings can have a complex around every point of a layout.
     pub fn most_rings(layout: &Layout) -> usize {
         let points = 0..layout.extraordinary_points().len();
-        let lines = points.map(|point| Lines::new(layout.rules(point).rules().rules(), 0, 0));
+        let lines = points.map(|point| AxisLines::new(layout.rules(point).rules().rules(), 0, 0));
         lines.map(|lines| lines.most_rings()).fold(MAX_RINGS, usize::min)
     }
 
@@ -99,10 +99,10 @@ fn lines_of_points(
     layout: &Layout,
     rings: usize,
     caps: Option<&CapPlan>,
-) -> Result<Vec<Lines>, ComplexError> {
+) -> Result<Vec<AxisLines>, ComplexError> {
     let of_point = |point: usize| {
         let cap_split = caps.map_or(0, |caps| caps.rules(point).split());
-        let lines = Lines::new(layout.rules(point).rules().rules(), rings, cap_split);
+        let lines = AxisLines::new(layout.rules(point).rules().rules(), rings, cap_split);
         let most = lines.most_rings();
         if rings > most { Err(ComplexError::TooDeep { rings, most }) } else { Ok(lines) }
     };
@@ -114,7 +114,7 @@ fn quad_of_face(layout: &Layout, quad: u32) -> QuadOfFace<'_> {
     QuadOfFace { topology: layout.topology(), quad, face, corner }
 }
 
-fn sides_of_patches(layout: &Layout, places: &[PatchPlace], lines: &[Lines]) -> Vec<Side> {
+fn sides_of_patches(layout: &Layout, places: &[PatchPlace], lines: &[AxisLines]) -> Vec<Side> {
     let mut sides = Vec::with_capacity(4 * places.len());
     let mut quad: Option<QuadOfFace> = None;
     for (place, number) in places.iter().zip(0..) {

@@ -97,7 +97,7 @@ impl ExactSquare {
 
 /// The lines between the patches around one point, along a and along b alike.
 #[derive(Clone, Debug)]
-pub(super) struct Lines {
+pub(super) struct AxisLines {
     /// The patches along each side of a square of a ring.
     split: usize,
     /// The number of rings.
@@ -107,7 +107,7 @@ pub(super) struct Lines {
     cuts: Option<Cuts>,
 }
 
-impl Lines {
+impl AxisLines {
     pub(super) fn new(rules: &Rules, rings: usize, cap_split: usize) -> Self {
         Self { split: rules.split, rings, cap_split, cuts: rules.cuts().cloned() }
     }
@@ -189,15 +189,15 @@ mod tests {
         }
     }
 
-    /// Lines with all splits, and with cuts where they can be derived.
-    fn all_lines() -> Vec<Lines> {
+    /// AxisLines with all splits, and with cuts where they can be derived.
+    fn all_lines() -> Vec<AxisLines> {
         let variants = [Contraction::CatmullClark, Contraction::Half, Contraction::Lambda(0.31)];
         let mut all = Vec::new();
         for scheme in SchemeKind::ALL {
             for contraction in variants.into_iter().filter(|&c| scheme.check_contraction(c).is_ok())
             {
                 let rules = scheme.rules(Variant::from(contraction), 5);
-                all.push(Lines::new(&rules.expect("all have valence 5"), 20, 0));
+                all.push(AxisLines::new(&rules.expect("all have valence 5"), 20, 0));
             }
         }
         all

@@ -1,6 +1,6 @@
 //! The numbers of patches: which patch a source is.
 
-use super::exact::{ExactSquare, Lines, Rectangle};
+use super::exact::{AxisLines, ExactSquare, Rectangle};
 use crate::scheme::Rules;
 use crate::surface::{PatchPlace, RingPatch, Role, Source};
 
@@ -81,7 +81,7 @@ impl Numbers {
 /// The rectangle that a patch covers; `rules` are those of its point.
 pub(super) fn rectangle<'a>(
     place: &PatchPlace,
-    lines: &[Lines],
+    lines: &[AxisLines],
     rules: impl Fn(usize) -> &'a Rules,
 ) -> Rectangle {
     match place.source {

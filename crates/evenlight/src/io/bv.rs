@@ -80,7 +80,7 @@ pub struct Group {
 /// Why a file is not read, and the line (from 1) at which that is clear.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {fault}")]
-pub struct ReadError {
+pub struct BvError {
     /// The line, counted from 1.
     pub line: usize,
     /// What is wrong there.
@@ -129,7 +129,7 @@ pub enum Fault {
 /// assert_eq!((groups[0].name.as_str(), groups[0].color), ("roof", 2));
 /// assert_eq!(groups[0].patches[0].coef(0, 1), Some([0.0, 1.0, 0.0]));
 /// ```
-pub fn read(text: &str) -> Result<Vec<Group>, ReadError> {
+pub fn read(text: &str) -> Result<Vec<Group>, BvError> {
     let mut words = Words::new(text);
     let mut groups: Vec<Group> = Vec::new();
     let mut current = None;
@@ -147,7 +147,7 @@ pub fn read(text: &str) -> Result<Vec<Group>, ReadError> {
 }
 
 /// Reads the rest of a group line; returns the index of the group.
-fn read_group(words: &mut Words, groups: &mut Vec<Group>) -> Result<usize, ReadError> {
+fn read_group(words: &mut Words, groups: &mut Vec<Group>) -> Result<usize, BvError> {
     let color = words.parse("a color number")?;
     let name = words.expect("a group name")?;
     let group = find_or_add(groups, name);
@@ -169,7 +169,7 @@ fn find_or_add(groups: &mut Vec<Group>, name: &str) -> usize {
 }
 
 /// Reads a patch after the word that tells its kind.
-fn read_patch(kind: &str, words: &mut Words) -> Result<Patch, ReadError> {
+fn read_patch(kind: &str, words: &mut Words) -> Result<Patch, BvError> {
     let degree = match kind.parse() {
         Ok(4) => [read_degree(words)?; 2],
         Ok(5) => [read_degree(words)?, read_degree(words)?],
@@ -181,16 +181,16 @@ fn read_patch(kind: &str, words: &mut Words) -> Result<Patch, ReadError> {
     Ok(Patch::of(degree, coefs))
 }
 
-fn read_degree(words: &mut Words) -> Result<usize, ReadError> {
+fn read_degree(words: &mut Words) -> Result<usize, BvError> {
     let degree = words.parse("a degree")?;
     if degree > MAX_DEGREE { Err(words.error(Fault::DegreeTooHigh(degree))) } else { Ok(degree) }
 }
 
-fn read_point(words: &mut Words) -> Result<[f64; 3], ReadError> {
+fn read_point(words: &mut Words) -> Result<[f64; 3], BvError> {
     Ok([read_coordinate(words)?, read_coordinate(words)?, read_coordinate(words)?])
 }
 
-fn read_coordinate(words: &mut Words) -> Result<f64, ReadError> {
+fn read_coordinate(words: &mut Words) -> Result<f64, BvError> {
     const EXPECTED: &str = "a finite coordinate";
     let word = words.expect(EXPECTED)?;
     let value = word.parse().ok().filter(|x: &f64| x.is_finite());
@@ -229,21 +229,21 @@ impl<'a> Words<'a> {
         (!rest.is_empty()).then_some(rest)
     }
 
-    fn expect(&mut self, expected: &'static str) -> Result<&'a str, ReadError> {
+    fn expect(&mut self, expected: &'static str) -> Result<&'a str, BvError> {
         self.next_word().ok_or_else(|| self.error(Fault::UnexpectedEnd { expected }))
     }
 
-    fn parse<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, ReadError> {
+    fn parse<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, BvError> {
         let word = self.expect(expected)?;
         word.parse().map_err(|_| self.unexpected(expected, word))
     }
 
-    fn unexpected(&self, expected: &'static str, found: &str) -> ReadError {
+    fn unexpected(&self, expected: &'static str, found: &str) -> BvError {
         self.error(Fault::UnexpectedWord { expected, found: found.to_owned() })
     }
 
-    fn error(&self, fault: Fault) -> ReadError {
-        ReadError { line: self.line.max(1), fault }
+    fn error(&self, fault: Fault) -> BvError {
+        BvError { line: self.line.max(1), fault }
     }
 }
 

@@ -83,8 +83,8 @@ impl LoadError {
             Self::Obj(error) => of_obj(error),
             Self::Ply(error) => {
                 let line = match error.place {
-                    ply::Place::Line(line) => Some(line),
-                    ply::Place::Byte(_) => None,
+                    ply::PlyPlace::Line(line) => Some(line),
+                    ply::PlyPlace::Byte(_) => None,
                 };
                 vec![Diagnostic::unreadable(error.to_string(), line)]
             }
@@ -94,7 +94,7 @@ impl LoadError {
     }
 }
 
-fn of_obj(error: &obj::ReadError) -> Vec<Diagnostic> {
+fn of_obj(error: &obj::ObjError) -> Vec<Diagnostic> {
     let of_line = |fault: &obj::LineFault| Diagnostic {
         line: Some(fault.line),
         marks: fault.element.map(marked).unwrap_or_default(),

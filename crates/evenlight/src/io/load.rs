@@ -229,13 +229,13 @@ impl fmt::Display for Notice {
 pub enum LoadError {
     /// It is no OBJ file.
     #[error(transparent)]
-    Obj(#[from] obj::ReadError),
+    Obj(#[from] obj::ObjError),
     /// It is no PLY file.
     #[error(transparent)]
-    Ply(#[from] ply::ReadError),
+    Ply(#[from] ply::PlyError),
     /// It is no USD file with a mesh.
     #[error(transparent)]
-    Usd(#[from] usd::ReadError),
+    Usd(#[from] usd::UsdError),
     /// Its mesh cannot be used.
     #[error("{0}")]
     Check(Box<Refusal>),

@@ -55,7 +55,7 @@ mod tag;
 mod words;
 mod write;
 
-pub use fault::{Element, IndexKind, LineFault, ReadError, Reason};
+pub use fault::{Element, IndexKind, LineFault, ObjError, Reason};
 pub use skipped::Skipped;
 
 /// What an OBJ file says.
@@ -93,9 +93,9 @@ pub struct Obj {
 ///
 /// let error = obj::read(b"v 0 0 zero\n").unwrap_err();
 /// assert!(error.to_string().starts_with("line 1, vertex 1: `zero` is not a number"));
-/// # Ok::<(), obj::ReadError>(())
+/// # Ok::<(), obj::ObjError>(())
 /// ```
-pub fn read(bytes: &[u8]) -> Result<Obj, ReadError> {
+pub fn read(bytes: &[u8]) -> Result<Obj, ObjError> {
     parse::read(bytes, parse::Limits::default())
 }
 

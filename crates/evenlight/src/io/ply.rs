@@ -57,16 +57,16 @@ pub struct Ply {
 
 /// Why a file cannot be read: its first fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError {
+pub struct PlyError {
     /// Where it is.
-    pub place: Place,
+    pub place: PlyPlace,
     /// The element and the number of the item in it, from 0, if it is not in the header.
     pub item: Option<(String, usize)>,
     /// What is wrong and what to do, in a sentence.
     pub message: String,
 }
 
-impl fmt::Display for ReadError {
+impl fmt::Display for PlyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.item {
             Some((element, k)) => write!(f, "{}, {element} {k}: {}", self.place, self.message),
@@ -75,18 +75,18 @@ impl fmt::Display for ReadError {
     }
 }
 
-impl std::error::Error for ReadError {}
+impl std::error::Error for PlyError {}
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum PlyPlace {
     /// A line, from 1: of the header, or of an ascii file.
     Line(usize),
     /// The number of bytes before it, in a binary file.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for PlyPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "line {line}"),
@@ -116,9 +116,9 @@ impl fmt::Display for Place {
 /// let error = ply::read(text.replace("3 0 1 2", "3 0 1 3").as_bytes()).unwrap_err();
 /// let expected = "line 13, face 0: a corner asks for vertex 3, but the file has 3";
 /// assert!(error.to_string().starts_with(expected));
-/// # Ok::<(), ply::ReadError>(())
+/// # Ok::<(), ply::PlyError>(())
 /// ```
-pub fn read(bytes: &[u8]) -> Result<Ply, ReadError> {
+pub fn read(bytes: &[u8]) -> Result<Ply, PlyError> {
     cage::read(bytes)
 }
 

@@ -61,20 +61,20 @@ pub struct Usd {
 
 /// Why a file cannot be read: its first fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError {
+pub struct UsdError {
     /// The line of the fault, from 1.
     pub line: usize,
     /// What is wrong and what to do, in a sentence.
     pub message: String,
 }
 
-impl fmt::Display for ReadError {
+impl fmt::Display for UsdError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "line {}: {}", self.line, self.message)
     }
 }
 
-impl std::error::Error for ReadError {}
+impl std::error::Error for UsdError {}
 
 /// Reads the mesh at the path `prim` (or the only one below it) of a USD file, or the only mesh of
 /// the file. Time and memory are linear in its length.
@@ -96,9 +96,9 @@ impl std::error::Error for ReadError {}
 ///
 /// let error = usd::read(text.replace("1, 2]", "1, 3]").as_bytes(), None).unwrap_err();
 /// assert!(error.to_string().starts_with("line 5: `faceVertexIndices` asks for vertex 3"));
-/// # Ok::<(), usd::ReadError>(())
+/// # Ok::<(), usd::UsdError>(())
 /// ```
-pub fn read(bytes: &[u8], prim: Option<&str>) -> Result<Usd, ReadError> {
+pub fn read(bytes: &[u8], prim: Option<&str>) -> Result<Usd, UsdError> {
     let layer = parse::read(bytes)?;
     let found = scene::find_mesh(&layer, prim)?;
     cage::read(&found)

@@ -282,7 +282,7 @@ struct Tile {
 
 /// What is known of a corner of a face.
 #[derive(Clone, Copy, Debug)]
-enum Corner {
+enum CornerState {
     /// The face may be a bi-3 patch.
     Regular,
     /// The sector of a point.
@@ -301,7 +301,7 @@ struct Planner {
     pieces: Vec<Piece>,
     nets: Vec<RegularNet>,
     /// The corners of the level in hand that are not inner vertices of a regular, smooth grid.
-    corners: HashMap<HalfEdgeId, Corner>,
+    corners: HashMap<HalfEdgeId, CornerState>,
 }
 
 impl Planner {
@@ -398,9 +398,9 @@ impl Planner {
             }
             is_smooth = false;
             match self.corner(features, levels, h) {
-                Corner::Regular => {}
-                Corner::Isolated { point, sector } => isolated = Some((point, sector, k)),
-                Corner::Unsettled => return false,
+                CornerState::Regular => {}
+                CornerState::Isolated { point, sector } => isolated = Some((point, sector, k)),
+                CornerState::Unsettled => return false,
             }
         }
         let piece = match isolated {
@@ -412,23 +412,23 @@ impl Planner {
     }
 
     /// What is known of the corner that `h` leaves; it is found once for the whole fan.
-    fn corner(&mut self, features: &Features, levels: &[Level], h: HalfEdgeId) -> Corner {
+    fn corner(&mut self, features: &Features, levels: &[Level], h: HalfEdgeId) -> CornerState {
         if let Some(&known) = self.corners.get(&h) {
             return known;
         }
         let v = features.topology.origin(h);
         let fan = features.has_quads(v).then(|| features.fan(h)).flatten();
         let Some(fan) = fan else {
-            self.corners.insert(h, Corner::Unsettled);
-            return Corner::Unsettled;
+            self.corners.insert(h, CornerState::Unsettled);
+            return CornerState::Unsettled;
         };
         let of_sector = if fan.shape.is_regular() {
-            |_, _| Corner::Regular
+            |_, _| CornerState::Regular
         } else if features.is_isolated(fan) {
             self.add_point(features, levels, fan);
-            |point, sector| Corner::Isolated { point, sector }
+            |point, sector| CornerState::Isolated { point, sector }
         } else {
-            |_, _| Corner::Unsettled
+            |_, _| CornerState::Unsettled
         };
         let point = self.points.len().saturating_sub(1) as u32;
         for (s, h) in sectors(features.topology, fan).enumerate() {

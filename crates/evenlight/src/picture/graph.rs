@@ -13,6 +13,7 @@ use super::color::{Light, diverging, from_srgb, mix, to_srgb};
 use super::shade::studio;
 use super::{MAX_SAMPLES, MAX_SIDE, PictureError, annotate, panel_grid};
 use crate::basis::{Eigenfunctions, HomogeneousGuide, Parity};
+use crate::pairs::pairs;
 use crate::patch::Patch;
 use crate::point::{Point, Vector, cross, dot, scale, sub};
 use crate::task::map_indexed;
@@ -177,7 +178,7 @@ impl Graph {
             let corners: Vec<Vec<GraphVertex>> =
                 (0..=cells).map(|i| (0..=cells).map(|j| corner(i, j)).collect()).collect();
             let darker = if ring % 2 == 1 { ODD_RING } else { 1.0 };
-            for (i, j) in (0..cells).flat_map(|i| (0..cells).map(move |j| (i, j))) {
+            for (i, j) in pairs(cells, cells) {
                 let [a, b] = [corners[i][j], corners[i + 1][j + 1]];
                 for c in [corners[i + 1][j], corners[i][j + 1]] {
                     self.cover(&mut buffer, [a, b, c], darker);

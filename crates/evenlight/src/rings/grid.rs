@@ -25,7 +25,7 @@ impl<const N: usize> Rings<N> {
         s: usize,
         mut a: Vec<Line>,
         mut b: Vec<Line>,
-        put: &mut impl FnMut(usize, usize, A),
+        put: &mut dyn FnMut(usize, usize, A),
     ) {
         let sigma = self.sigma();
         // Scaled up like in `ring_of` and `scaled_up`.
@@ -57,7 +57,7 @@ impl<const N: usize> Rings<N> {
         s: usize,
         square: usize,
         [a, b]: [&[Line]; 2],
-        put: &mut impl FnMut(usize, usize, A),
+        put: &mut dyn FnMut(usize, usize, A),
     ) {
         if a.is_empty() || b.is_empty() {
             return;
@@ -70,11 +70,11 @@ impl<const N: usize> Rings<N> {
                     continue;
                 }
                 let which = rules.patch_of([i, j], square);
-                self.with_coefs(ring, s, which, |scale, coefs| {
-                    let lines = [&a.lines[..], &b.lines[..]];
-                    patch_grid(A::ORDER, rules.degree, coefs, lines, |i, j, jet| {
-                        put(i, j, self.placed(scale, [a.size, b.size], jet));
-                    });
+                let mut deep = None;
+                let (scale, coefs) = self.scale_and_coefs(ring, s, which, &mut deep);
+                let lines = [&a.lines[..], &b.lines[..]];
+                patch_grid(A::ORDER, rules.degree, coefs, lines, |i, j, jet| {
+                    put(i, j, self.placed(scale, [a.size, b.size], jet));
                 });
             }
         }

@@ -1,7 +1,7 @@
 //! Rows that go back through the refinements of a fan of many faces.
 //!
 //! ```text
-//!   x_0 --A--> x_1 --A--> x_2 ...      coefficient = o x_l + n x_(l+1),   x_0 = nodes - limit point
+//!   x_0 --A--> x_1 --A--> x_2 ...      coefficient = o x_l + n x_(l+1),  x_0 = nodes - limit point
 //!   v_0 <--A^T-- v_1 <--A^T-- v_2      v_l = o + A^T n,   v_0 = (A^T / lambda)^l v_l
 //! ```
 

@@ -19,7 +19,8 @@
 //! use evenlight::stencil::StencilBuilder;
 //! use evenlight::{FaceId, Surface, SurfaceOptions};
 //!
-//! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
+//! let text = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n\
+//!             v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
 //!             f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 //! let (cage, _) = Format::Obj.read_cage(text.as_bytes())?;
 //! let surface = Surface::build(cage, SurfaceOptions::default())?;

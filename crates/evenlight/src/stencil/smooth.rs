@@ -6,7 +6,7 @@
 //! ```text
 //!   regular piece    4 x 4 nodes     products of B-splines
 //!   ring, cap        6 n + 1 nodes   products of Bernstein polynomials, times the weights of the
-//!                                    nodes in the coefficients of the patch ([`unit`](super::unit))
+//!                                    nodes in the coefficients of the patch (module `unit`)
 //! ```
 
 use std::sync::Arc;

@@ -23,6 +23,7 @@ use std::sync::{Arc, OnceLock};
 use super::{StencilError, backwards};
 use crate::cap::{Cap, ValenceCap};
 use crate::net::{CNET_NODES, CNet};
+use crate::pairs::pairs;
 use crate::patch::Patch;
 use crate::rings::{CACHED_RINGS, Rings, ValenceRules};
 
@@ -221,7 +222,7 @@ impl UnitNets {
         let kept = if self.commutes() { patches_per_sector } else { patches[0].len() };
         let num_coefs = (degree + 1) * (degree + 1);
         let mut weights = Vec::with_capacity(kept * num_coefs * num_nodes);
-        for (patch, coef) in (0..kept).flat_map(|p| (0..num_coefs).map(move |c| (p, c))) {
+        for (patch, coef) in pairs(kept, num_coefs) {
             weights.extend((0..num_nodes).map(|node| {
                 let (net, turn) = self.net_of(node);
                 let sector_patch = (turn * patches_per_sector + patch) % patches[0].len();

@@ -47,9 +47,10 @@ impl SharedRules {
 /// use evenlight::surface::{Layout, RuleCache};
 /// use evenlight::{Cage, Mesh, SurfaceOptions};
 ///
-/// let positions = (0..8).map(|k| [(k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64]).collect();
-/// let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-/// let cage = Cage::new(Mesh::new(positions, faces))?;
+/// let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(f64::from);
+/// let sides =
+///     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+/// let cage = Cage::new(Mesh::new((0..8).map(corner).collect(), sides))?;
 /// let cache = RuleCache::default();
 /// Layout::with_cache(&cage, SurfaceOptions::default(), &cache)?;
 /// assert_eq!(cache.len(), 1, "all corners have valence 3");

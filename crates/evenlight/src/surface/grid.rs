@@ -62,7 +62,7 @@ impl<const N: usize> Surface<N> {
         us: Vec<Line>,
         vs: Vec<Line>,
         zoom: f64,
-        put: &mut impl FnMut(usize, usize, A),
+        put: &mut dyn FnMut(usize, usize, A),
     ) {
         if us.is_empty() || vs.is_empty() {
             return;
@@ -84,7 +84,8 @@ impl<const N: usize> Surface<N> {
             }
             Piece::Sector { point, sector, corner } => {
                 let change = |jet: &Jet<N>| from_sector(corner, jet).scaled_parameters(zoom);
-                let put = &mut |i, j, found: A| put(i, j, found.in_parameters(change));
+                let put =
+                    &mut |i: usize, j: usize, found: A| put(i, j, found.in_parameters(change));
                 self.eval_sector(point as usize, sector as usize, corner, [us, vs], put);
             }
             Piece::Split(first) => {
@@ -106,7 +107,7 @@ impl<const N: usize> Surface<N> {
         sector: usize,
         corner: u8,
         [us, vs]: [Vec<Line>; 2],
-        put: &mut impl FnMut(usize, usize, A),
+        put: &mut dyn FnMut(usize, usize, A),
     ) {
         if self.cap(point).is_some() {
             return for_each_pair(&us, &vs, |u, v| {

@@ -7,14 +7,14 @@ use crate::mesh::{MAX_LISTED, one_per_line};
 
 /// Why a file cannot be read: its faulty lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError {
+pub struct ObjError {
     /// The first faulty lines in order, 20 at most and at least one.
     pub faults: Vec<LineFault>,
     /// The number of faulty lines after those.
     pub num_more: usize,
 }
 
-impl fmt::Display for ReadError {
+impl fmt::Display for ObjError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let listed: Vec<String> = self.faults.iter().map(LineFault::to_string).collect();
         let total = listed.len() + self.num_more;
@@ -22,7 +22,7 @@ impl fmt::Display for ReadError {
     }
 }
 
-impl std::error::Error for ReadError {}
+impl std::error::Error for ObjError {}
 
 /// A fault of a line; the first one if it has several.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -280,11 +280,11 @@ impl Faults {
     }
 
     /// The error that lists the faults, if there are any.
-    pub fn into_result(self) -> Result<(), ReadError> {
+    pub fn into_result(self) -> Result<(), ObjError> {
         if self.kept.is_empty() {
             return Ok(());
         }
-        Err(ReadError { faults: self.kept, num_more: self.num_more })
+        Err(ObjError { faults: self.kept, num_more: self.num_more })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::fault::{Element, Faults, IndexKind, LineFault, ReadError, Reason, excerpt};
+use super::fault::{Element, Faults, IndexKind, LineFault, ObjError, Reason, excerpt};
 use super::primvars::Primvars;
 use super::skipped::Skipped;
 use super::tag::{self, Outcome};
@@ -30,10 +30,10 @@ impl Default for Limits {
 }
 
 /// [`super::read`] under `limits`, which tests can reach.
-pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Obj, ReadError> {
+pub(super) fn read(bytes: &[u8], limits: Limits) -> Result<Obj, ObjError> {
     if let Some(what) = Kind::not_obj(bytes) {
         let fault = LineFault { line: 1, element: None, reason: Reason::OtherKind { what } };
-        return Err(ReadError { faults: vec![fault], num_more: 0 });
+        return Err(ObjError { faults: vec![fault], num_more: 0 });
     }
     let mut reader = ObjReader::new(bytes, limits);
     let complete = reader.read_lines();
@@ -434,7 +434,7 @@ mod tests {
     const TETRAHEDRON: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n\
         f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-    fn tetrahedron(limits: Limits) -> Result<Obj, ReadError> {
+    fn tetrahedron(limits: Limits) -> Result<Obj, ObjError> {
         read(TETRAHEDRON, limits)
     }
 

@@ -1,6 +1,6 @@
 //! The values after the header, one by one, whatever their encoding.
 
-use super::Place;
+use super::PlyPlace;
 use super::header::{Encoding, Header, Scalar};
 use crate::io::excerpt::excerpt;
 
@@ -11,19 +11,19 @@ pub(super) struct Body<'a> {
     at: usize,
     line: usize,
     /// Where the latest value stands.
-    place: Place,
+    place: PlyPlace,
 }
 
 impl<'a> Body<'a> {
     /// Stands after `header` at the beginning of `bytes`.
     pub fn new(bytes: &'a [u8], header: &Header) -> Self {
         let line = header.num_lines + 1;
-        let place = Place::Line(line);
+        let place = PlyPlace::Line(line);
         Self { encoding: header.encoding, bytes, at: header.len, line, place }
     }
 
     /// Where the latest value stands.
-    pub fn place(&self) -> Place {
+    pub fn place(&self) -> PlyPlace {
         self.place
     }
 
@@ -55,7 +55,7 @@ impl<'a> Body<'a> {
     }
 
     fn next_bytes(&mut self, scalar: Scalar) -> Option<Result<f64, String>> {
-        self.place = Place::Byte(self.at);
+        self.place = PlyPlace::Byte(self.at);
         Some(Ok(match scalar {
             Scalar::I8 => self.take().map(i8::from_le_bytes)?.into(),
             Scalar::U8 => self.take().map(u8::from_le_bytes)?.into(),
@@ -80,7 +80,7 @@ impl<'a> Body<'a> {
 
     fn next_word(&mut self, scalar: Scalar) -> Option<Result<f64, String>> {
         self.skip_blanks();
-        self.place = Place::Line(self.line);
+        self.place = PlyPlace::Line(self.line);
         let rest = &self.bytes[self.at..];
         let len = rest.iter().take_while(|b| !b.is_ascii_whitespace()).count();
         if len == 0 {

@@ -3,13 +3,13 @@
 use super::body::Body;
 use super::header::{Element, Header, word};
 use super::primvars::{self, CornerValues};
-use super::{Place, Ply, ReadError};
+use super::{Ply, PlyError, PlyPlace};
 use crate::io::lines::Lines;
 use crate::mesh::{Faces, Mesh, VertexId};
 use crate::point::Point;
 
 /// [`super::read`].
-pub(super) fn read(bytes: &[u8]) -> Result<Ply, ReadError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Ply, PlyError> {
     let header = Header::read(bytes)?;
     let mut reader = PlyReader::new(&header)?;
     let mut body = Body::new(bytes, &header);
@@ -42,9 +42,9 @@ struct PlyReader<'a> {
 type Item = Vec<Vec<f64>>;
 
 impl<'a> PlyReader<'a> {
-    fn new(header: &'a Header) -> Result<Self, ReadError> {
-        let fault = |line: usize, message: &str| ReadError {
-            place: Place::Line(line),
+    fn new(header: &'a Header) -> Result<Self, PlyError> {
+        let fault = |line: usize, message: &str| PlyError {
+            place: PlyPlace::Line(line),
             item: None,
             message: message.to_owned(),
         };
@@ -74,12 +74,12 @@ impl<'a> PlyReader<'a> {
         })
     }
 
-    fn element(&mut self, element: &Element, body: &mut Body) -> Result<(), ReadError> {
+    fn element(&mut self, element: &Element, body: &mut Body) -> Result<(), PlyError> {
         let faces = FaceProperties::of(element)?;
         self.remark(element, faces.as_ref());
         let mut item: Item = vec![Vec::new(); element.properties.len()];
         for k in 0..element.count {
-            self.item(element, faces.as_ref(), &mut item, body).map_err(|message| ReadError {
+            self.item(element, faces.as_ref(), &mut item, body).map_err(|message| PlyError {
                 place: body.place(),
                 item: Some((word(&element.name), k)),
                 message,
@@ -188,7 +188,7 @@ struct FaceProperties {
 
 impl FaceProperties {
     /// Those of `element`, if it is of faces.
-    fn of(element: &Element) -> Result<Option<Self>, ReadError> {
+    fn of(element: &Element) -> Result<Option<Self>, PlyError> {
         if element.name != "face" {
             return Ok(None);
         }
@@ -198,8 +198,8 @@ impl FaceProperties {
         match indices {
             Some(indices) => Ok(Some(Self { indices, texcoord: list("texcoord") })),
             None if element.count == 0 => Ok(None),
-            None => Err(ReadError {
-                place: Place::Line(element.line),
+            None => Err(PlyError {
+                place: PlyPlace::Line(element.line),
                 item: None,
                 message: "the element `face` has no list `vertex_indices` of whole numbers: add it"
                     .to_owned(),

@@ -1,6 +1,6 @@
 //! The header: what elements there are, of what properties.
 
-use super::{Place, ReadError};
+use super::{PlyError, PlyPlace};
 use crate::io::excerpt::excerpt;
 use crate::io::kind::{Format, Kind};
 
@@ -115,7 +115,7 @@ pub(super) struct Header {
 
 impl Header {
     /// Reads the header at the beginning of `bytes`.
-    pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
+    pub fn read(bytes: &[u8]) -> Result<Self, PlyError> {
         let mut lines = HeaderLines::new(bytes);
         if lines.next().map(<[u8]>::trim_ascii) != Some(b"ply") {
             let advice = Kind::advice(bytes, Format::Ply);
@@ -180,12 +180,12 @@ impl<'a> HeaderLines<'a> {
         Some(&rest[..len])
     }
 
-    fn fault(&self, message: &str) -> ReadError {
-        let place = Place::Line(self.number.max(1));
-        ReadError { place, item: None, message: message.to_owned() }
+    fn fault(&self, message: &str) -> PlyError {
+        let place = PlyPlace::Line(self.number.max(1));
+        PlyError { place, item: None, message: message.to_owned() }
     }
 
-    fn end(&self, encoding: Option<Encoding>, elements: Vec<Element>) -> Result<Header, ReadError> {
+    fn end(&self, encoding: Option<Encoding>, elements: Vec<Element>) -> Result<Header, PlyError> {
         let encoding = encoding.ok_or_else(|| {
             self.fault("the header names no format: add a line as in `format ascii 1.0`")
         })?;
@@ -193,7 +193,7 @@ impl<'a> HeaderLines<'a> {
         if let Some(empty) = elements.iter().find(|e| e.count > 0 && e.properties.is_empty()) {
             let message =
                 format!("the element `{}` has no properties: delete it", word(&empty.name));
-            return Err(ReadError { place: Place::Line(empty.line), item: None, message });
+            return Err(PlyError { place: PlyPlace::Line(empty.line), item: None, message });
         }
         Ok(Header { encoding, elements, len: self.at, num_lines: self.number })
     }

@@ -1,6 +1,6 @@
 //! Attributes by name and type.
 
-use super::ReadError;
+use super::UsdError;
 use super::parse::{Attribute, Prim, Value};
 use crate::io::excerpt::excerpt;
 
@@ -30,7 +30,7 @@ impl<T: ?Sized> Found<'_, T> {
     }
 
     /// A fault of the attribute; `what` goes on after its name.
-    pub fn fault(&self, what: &str) -> ReadError {
+    pub fn fault(&self, what: &str) -> UsdError {
         fault(self.attribute, what)
     }
 }
@@ -60,7 +60,7 @@ impl<'a> Attributes<'a> {
         &mut self,
         name: &str,
         width: usize,
-    ) -> Result<Option<Found<'a, [f64]>>, ReadError> {
+    ) -> Result<Option<Found<'a, [f64]>>, UsdError> {
         let Some(attribute) = self.find(name) else { return Ok(None) };
         match &attribute.value {
             // An empty list has no width of its own.
@@ -73,7 +73,7 @@ impl<'a> Attributes<'a> {
     }
 
     /// Numbers of things, from 0.
-    pub fn ids(&mut self, name: &str) -> Result<Option<Ids<'a>>, ReadError> {
+    pub fn ids(&mut self, name: &str) -> Result<Option<Ids<'a>>, UsdError> {
         let Some(found) = self.numbers(name, 1)? else { return Ok(None) };
         let id = |&x: &f64| {
             let is_id = x.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&x);
@@ -88,7 +88,7 @@ impl<'a> Attributes<'a> {
         &mut self,
         name: &str,
         choices: &[(&str, T)],
-    ) -> Result<Option<T>, ReadError> {
+    ) -> Result<Option<T>, UsdError> {
         let Some(text) = self.text(name)? else { return Ok(None) };
         match choices.iter().find(|(name, _)| *name == text.value) {
             Some((_, choice)) => Ok(Some(*choice)),
@@ -101,7 +101,7 @@ impl<'a> Attributes<'a> {
     }
 
     /// A string or token.
-    pub fn text(&mut self, name: &str) -> Result<Option<Found<'a, str>>, ReadError> {
+    pub fn text(&mut self, name: &str) -> Result<Option<Found<'a, str>>, UsdError> {
         let Some(attribute) = self.find(name) else { return Ok(None) };
         match &attribute.value {
             Value::Texts(texts) if texts.len() == 1 => {
@@ -113,7 +113,7 @@ impl<'a> Attributes<'a> {
 }
 
 /// A fault of `attribute`; `what` goes on after its name.
-pub(super) fn fault(attribute: &Attribute, what: &str) -> ReadError {
+pub(super) fn fault(attribute: &Attribute, what: &str) -> UsdError {
     let name = excerpt(attribute.name.as_bytes());
-    ReadError { line: attribute.line, message: format!("`{name}` {what}: correct it") }
+    UsdError { line: attribute.line, message: format!("`{name}` {what}: correct it") }
 }

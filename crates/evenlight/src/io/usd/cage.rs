@@ -6,7 +6,7 @@ use super::attributes::Attributes;
 use super::parse::{Attribute, Value};
 use super::scene::Found;
 use super::transform::{self, Affine};
-use super::{ReadError, Usd};
+use super::{Usd, UsdError};
 use crate::io::excerpt::excerpt;
 use crate::io::lines::Lines;
 use crate::mesh::{
@@ -43,7 +43,7 @@ pub(super) const INTERPOLATIONS: [(&str, Interpolation); 3] = [
 ];
 
 /// [`super::read`], once the mesh is found.
-pub(super) fn read(found: &Found) -> Result<Usd, ReadError> {
+pub(super) fn read(found: &Found) -> Result<Usd, UsdError> {
     let mut reader = UsdReader {
         attributes: Attributes::new(found.prim()),
         line: found.prim().line,
@@ -78,11 +78,11 @@ struct UsdReader<'a> {
 }
 
 impl UsdReader<'_> {
-    fn missing(&self, name: &str) -> ReadError {
-        ReadError { line: self.line, message: format!("the mesh has no `{name}`: add it") }
+    fn missing(&self, name: &str) -> UsdError {
+        UsdError { line: self.line, message: format!("the mesh has no `{name}`: add it") }
     }
 
-    fn points(&mut self, to_stage: Option<Affine>) -> Result<(), ReadError> {
+    fn points(&mut self, to_stage: Option<Affine>) -> Result<(), UsdError> {
         let points = self.attributes.numbers("points", 3)?;
         let points = points.ok_or_else(|| self.missing("points"))?;
         self.lines.vertices = points.lines().to_vec();
@@ -94,12 +94,12 @@ impl UsdReader<'_> {
         Ok(())
     }
 
-    fn is_left_handed(&mut self) -> Result<bool, ReadError> {
+    fn is_left_handed(&mut self) -> Result<bool, UsdError> {
         let choices = [("rightHanded", false), ("leftHanded", true)];
         Ok(self.attributes.choice("orientation", &choices)?.unwrap_or(false))
     }
 
-    fn faces(&mut self, is_reversed: bool) -> Result<(), ReadError> {
+    fn faces(&mut self, is_reversed: bool) -> Result<(), UsdError> {
         let counts = self.attributes.ids("faceVertexCounts")?;
         let (counts, of_counts) = counts.ok_or_else(|| self.missing("faceVertexCounts"))?;
         let indices = self.attributes.ids("faceVertexIndices")?;
@@ -129,7 +129,7 @@ impl UsdReader<'_> {
         Ok(())
     }
 
-    fn rules(&mut self) -> Result<(), ReadError> {
+    fn rules(&mut self) -> Result<(), UsdError> {
         let tags = &mut self.mesh.tags;
         if let Some(rule) = self.attributes.choice("interpolateBoundary", &BOUNDARY_RULES)? {
             tags.boundary = rule;
@@ -151,7 +151,7 @@ impl UsdReader<'_> {
         Ok(())
     }
 
-    fn creases(&mut self) -> Result<(), ReadError> {
+    fn creases(&mut self) -> Result<(), UsdError> {
         let Some((vertices, found)) = self.attributes.ids("creaseIndices")? else { return Ok(()) };
         if vertices.is_empty() {
             return Ok(());
@@ -185,7 +185,7 @@ impl UsdReader<'_> {
         Ok(())
     }
 
-    fn corners_and_holes(&mut self) -> Result<(), ReadError> {
+    fn corners_and_holes(&mut self) -> Result<(), UsdError> {
         let corners = self.attributes.ids("cornerIndices")?;
         if let Some((vertices, found)) = corners.filter(|(vertices, _)| !vertices.is_empty()) {
             let sharpness = self.attributes.numbers("cornerSharpnesses", 1)?;
@@ -215,7 +215,7 @@ impl UsdReader<'_> {
         &self,
         vertices: &[u32],
         found: &super::attributes::Found<[f64]>,
-    ) -> Result<(), ReadError> {
+    ) -> Result<(), UsdError> {
         let count = self.mesh.positions.len();
         match vertices.iter().find(|&&v| v as usize >= count) {
             Some(v) => {
@@ -225,7 +225,7 @@ impl UsdReader<'_> {
         }
     }
 
-    fn primvars(&mut self, attributes: &[Attribute], is_reversed: bool) -> Result<(), ReadError> {
+    fn primvars(&mut self, attributes: &[Attribute], is_reversed: bool) -> Result<(), UsdError> {
         for attribute in attributes {
             let name = attribute.name.strip_prefix("primvars:");
             let name = name.map(|name| name.strip_suffix(".timeSamples").unwrap_or(name));
@@ -246,7 +246,7 @@ impl UsdReader<'_> {
         name: &str,
         attribute: &Attribute,
         is_reversed: bool,
-    ) -> Result<(), ReadError> {
+    ) -> Result<(), UsdError> {
         let own_name = if name == "displayColor" { "color" } else { name };
         let mut skip = |why: &str| {
             let shown = excerpt(name.as_bytes());
@@ -354,7 +354,7 @@ fn check_indices(indices: &[u32], num_values: usize) -> Result<(), String> {
     }
 }
 
-fn check_sharpness(found: &super::attributes::Found<[f64]>) -> Result<(), ReadError> {
+fn check_sharpness(found: &super::attributes::Found<[f64]>) -> Result<(), UsdError> {
     match found.value.iter().find(|x| x.is_nan() || **x < 0.0) {
         Some(x) if x.is_nan() => Err(found.fault("has NaN")),
         Some(x) => Err(found.fault(&format!("has {x}, but sharpness is 0 (smooth) or more"))),

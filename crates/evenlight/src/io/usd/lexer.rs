@@ -1,6 +1,6 @@
 //! The words of the text form of USD.
 
-use super::ReadError;
+use super::UsdError;
 use crate::io::excerpt::excerpt;
 
 /// A word.
@@ -39,12 +39,12 @@ impl<'a> Lexer<'a> {
     }
 
     /// A fault here.
-    pub fn fault(&self, message: impl Into<String>) -> ReadError {
-        ReadError { line: self.line, message: message.into() }
+    pub fn fault(&self, message: impl Into<String>) -> UsdError {
+        UsdError { line: self.line, message: message.into() }
     }
 
     /// The next word.
-    pub fn next(&mut self) -> Result<Token<'a>, ReadError> {
+    pub fn next(&mut self) -> Result<Token<'a>, UsdError> {
         self.skip_blanks()?;
         let rest = &self.text[self.at..];
         match rest.as_bytes() {
@@ -68,7 +68,7 @@ impl<'a> Lexer<'a> {
     }
 
     /// Goes over blanks and comments: `# ...`, `// ...`, `/* ... */`.
-    fn skip_blanks(&mut self) -> Result<(), ReadError> {
+    fn skip_blanks(&mut self) -> Result<(), UsdError> {
         loop {
             let rest = &self.text[self.at..];
             match rest.as_bytes() {
@@ -90,7 +90,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    fn number(&mut self) -> Result<Token<'a>, ReadError> {
+    fn number(&mut self) -> Result<Token<'a>, UsdError> {
         let rest = &self.text[self.at..];
         let part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.');
         let word = &rest[..rest.find(|c| !part(c)).unwrap_or(rest.len())];
@@ -102,7 +102,7 @@ impl<'a> Lexer<'a> {
         Ok(Token::Number(value))
     }
 
-    fn name(&mut self) -> Result<Token<'a>, ReadError> {
+    fn name(&mut self) -> Result<Token<'a>, UsdError> {
         let rest = &self.text[self.at..];
         let part = |c: char| c.is_alphanumeric() || matches!(c, '_' | ':' | '.' | '|' | '!');
         let len = rest.find(|c| !part(c)).unwrap_or(rest.len());
@@ -114,13 +114,13 @@ impl<'a> Lexer<'a> {
         Ok(Token::Name(self.take(len)))
     }
 
-    fn asset(&mut self) -> Result<Token<'a>, ReadError> {
+    fn asset(&mut self) -> Result<Token<'a>, UsdError> {
         let is_triple = self.text[self.at..].starts_with("@@@");
         let quote = if is_triple { "@@@" } else { "@" };
         self.link(quote, quote)
     }
 
-    fn link(&mut self, open: &str, close: &str) -> Result<Token<'a>, ReadError> {
+    fn link(&mut self, open: &str, close: &str) -> Result<Token<'a>, UsdError> {
         let inside = &self.text[self.at + open.len()..];
         let len = inside
             .find(close)
@@ -131,7 +131,7 @@ impl<'a> Lexer<'a> {
     }
 
     /// A string in single or double quotes, or in three of them, which may go over lines.
-    fn string(&mut self) -> Result<Token<'a>, ReadError> {
+    fn string(&mut self) -> Result<Token<'a>, UsdError> {
         let rest = &self.text[self.at..];
         let quote = &rest[..1];
         let triple = quote.repeat(3);
@@ -153,7 +153,7 @@ impl<'a> Lexer<'a> {
     }
 }
 
-fn at_end(lexer: &Lexer, quote: &str) -> Result<usize, ReadError> {
+fn at_end(lexer: &Lexer, quote: &str) -> Result<usize, UsdError> {
     Err(lexer.fault(format!("the string has no end: close it by {quote}")))
 }
 

@@ -13,7 +13,7 @@
 //! Statements may be separated by `;`, values by `,`. What is not understood is read all the same,
 //! so that a fault is found where it is.
 
-use super::ReadError;
+use super::UsdError;
 use super::lexer::{Lexer, Token};
 use crate::io::excerpt::excerpt;
 use crate::io::kind::{Format, Kind};
@@ -73,8 +73,8 @@ pub(super) enum Value {
 const MAX_DEPTH: usize = 100;
 
 /// Reads a whole file.
-pub(super) fn read(bytes: &[u8]) -> Result<Layer, ReadError> {
-    let fault = |line, message: &str| ReadError { line, message: message.to_owned() };
+pub(super) fn read(bytes: &[u8]) -> Result<Layer, UsdError> {
+    let fault = |line, message: &str| UsdError { line, message: message.to_owned() };
     if bytes.starts_with(b"PXR-USDC") || bytes.starts_with(b"PK") {
         let message = "this is binary USD, which is not read: convert it by \
                        `usdcat --flatten IN -o OUT.usda`";
@@ -101,14 +101,14 @@ struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
-    fn new(text: &'a str) -> Result<Self, ReadError> {
+    fn new(text: &'a str) -> Result<Self, UsdError> {
         let mut lexer = Lexer::new(text);
         let next = lexer.next()?;
         let line = lexer.line();
         Ok(Self { lexer, next, line, depth: 0 })
     }
 
-    fn layer(mut self) -> Result<Layer, ReadError> {
+    fn layer(mut self) -> Result<Layer, UsdError> {
         if self.next == Token::Sign('(') {
             self.metadata()?;
         }
@@ -124,13 +124,13 @@ impl<'a> Parser<'a> {
     }
 
     /// Steps to the next word; the one before it.
-    fn advance(&mut self) -> Result<Token<'a>, ReadError> {
+    fn advance(&mut self) -> Result<Token<'a>, UsdError> {
         let next = self.lexer.next()?;
         self.line = self.lexer.line();
         Ok(std::mem::replace(&mut self.next, next))
     }
 
-    fn eat(&mut self, sign: char) -> Result<bool, ReadError> {
+    fn eat(&mut self, sign: char) -> Result<bool, UsdError> {
         let is_it = self.next == Token::Sign(sign);
         if is_it {
             self.advance()?;
@@ -138,11 +138,11 @@ impl<'a> Parser<'a> {
         Ok(is_it)
     }
 
-    fn expect(&mut self, sign: char) -> Result<(), ReadError> {
+    fn expect(&mut self, sign: char) -> Result<(), UsdError> {
         if self.eat(sign)? { Ok(()) } else { Err(self.unexpected(&format!("`{sign}`"))) }
     }
 
-    fn name(&mut self) -> Result<&'a str, ReadError> {
+    fn name(&mut self) -> Result<&'a str, UsdError> {
         match self.next {
             Token::Name(name) => {
                 self.advance()?;
@@ -152,7 +152,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn text(&mut self) -> Result<String, ReadError> {
+    fn text(&mut self) -> Result<String, UsdError> {
         match self.next {
             Token::Text(_) => match self.advance()? {
                 Token::Text(text) => Ok(text),
@@ -162,7 +162,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn unexpected(&self, expected: &str) -> ReadError {
+    fn unexpected(&self, expected: &str) -> UsdError {
         let found = match &self.next {
             Token::Name(name) => format!("`{}`", excerpt(name.as_bytes())),
             Token::Number(x) => format!("`{x}`"),
@@ -171,25 +171,25 @@ impl<'a> Parser<'a> {
             Token::Sign(sign) => format!("`{sign}`"),
             Token::End => "the end of the file".to_owned(),
         };
-        ReadError { line: self.line, message: format!("{expected} is expected, not {found}") }
+        UsdError { line: self.line, message: format!("{expected} is expected, not {found}") }
     }
 
     /// Goes one level deeper for `inside`.
     fn nested<T>(
         &mut self,
-        inside: impl FnOnce(&mut Self) -> Result<T, ReadError>,
-    ) -> Result<T, ReadError> {
+        inside: impl FnOnce(&mut Self) -> Result<T, UsdError>,
+    ) -> Result<T, UsdError> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
             let message = format!("there are more than {MAX_DEPTH} brackets in each other");
-            return Err(ReadError { line: self.line, message });
+            return Err(UsdError { line: self.line, message });
         }
         let result = inside(self);
         self.depth -= 1;
         result
     }
 
-    fn prim(&mut self) -> Result<Prim, ReadError> {
+    fn prim(&mut self) -> Result<Prim, UsdError> {
         let line = self.line;
         let is_defined = match self.next {
             Token::Name("def") => true,
@@ -217,7 +217,7 @@ impl<'a> Parser<'a> {
         Ok(prim)
     }
 
-    fn statements(&mut self, prim: &mut Prim) -> Result<(), ReadError> {
+    fn statements(&mut self, prim: &mut Prim) -> Result<(), UsdError> {
         while !self.eat('}')? {
             match self.next {
                 Token::Sign(';') => drop(self.advance()?),
@@ -234,7 +234,7 @@ impl<'a> Parser<'a> {
     }
 
     /// `variantSet "name" = { "variant" [metadata] { statements } ... }`, not kept.
-    fn variant_set(&mut self) -> Result<(), ReadError> {
+    fn variant_set(&mut self) -> Result<(), UsdError> {
         self.advance()?;
         self.text()?;
         self.expect('=')?;
@@ -251,7 +251,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A property; `None` if it is no attribute.
-    fn property(&mut self) -> Result<Option<Attribute>, ReadError> {
+    fn property(&mut self) -> Result<Option<Attribute>, UsdError> {
         let line = self.line;
         let mut word = self.name()?;
         let mut is_attribute = true;
@@ -285,7 +285,7 @@ impl<'a> Parser<'a> {
         Ok(is_attribute.then_some(attribute))
     }
 
-    fn metadata(&mut self) -> Result<Vec<(&'a str, Value)>, ReadError> {
+    fn metadata(&mut self) -> Result<Vec<(&'a str, Value)>, UsdError> {
         self.expect('(')?;
         self.nested(|parser| {
             let mut entries = Vec::new();
@@ -306,7 +306,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    fn value(&mut self) -> Result<Value, ReadError> {
+    fn value(&mut self) -> Result<Value, UsdError> {
         match self.next {
             Token::Sign('[') => self.nested(Self::list),
             Token::Sign('(') => {
@@ -326,7 +326,7 @@ impl<'a> Parser<'a> {
     }
 
     /// `[` values `]`.
-    fn list(&mut self) -> Result<Value, ReadError> {
+    fn list(&mut self) -> Result<Value, UsdError> {
         self.expect('[')?;
         let mut list = Collected::default();
         while !self.eat(']')? {
@@ -350,7 +350,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A value without brackets.
-    fn single(&mut self, list: &mut Collected) -> Result<(), ReadError> {
+    fn single(&mut self, list: &mut Collected) -> Result<(), UsdError> {
         match self.next {
             Token::Number(x) => {
                 self.advance()?;
@@ -385,7 +385,7 @@ impl<'a> Parser<'a> {
 
     /// `(` values `)`: adds the numbers, also those of tuples inside; how many there are, or
     /// `None` if there is something else.
-    fn tuple(&mut self, numbers: &mut Vec<f64>) -> Result<Option<usize>, ReadError> {
+    fn tuple(&mut self, numbers: &mut Vec<f64>) -> Result<Option<usize>, UsdError> {
         self.expect('(')?;
         self.nested(|parser| {
             let mut count = Some(0);
@@ -408,7 +408,7 @@ impl<'a> Parser<'a> {
     }
 
     /// `{` entries `}`: the value of the first time if the keys are times.
-    fn dictionary(&mut self) -> Result<Value, ReadError> {
+    fn dictionary(&mut self) -> Result<Value, UsdError> {
         self.expect('{')?;
         let mut first: Option<(f64, Value)> = None;
         while !self.eat('}')? {
@@ -428,7 +428,7 @@ impl<'a> Parser<'a> {
         Ok(first.map_or(Value::Other, |(_, value)| value))
     }
 
-    fn dictionary_entry(&mut self) -> Result<(), ReadError> {
+    fn dictionary_entry(&mut self) -> Result<(), UsdError> {
         while matches!(self.next, Token::Name(_)) {
             self.advance()?;
             if self.eat('[')? {

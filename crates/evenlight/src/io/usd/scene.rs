@@ -1,6 +1,6 @@
 //! Which mesh is meant, and where it stands.
 
-use super::ReadError;
+use super::UsdError;
 use super::parse::{Layer, Prim};
 use crate::io::excerpt::excerpt;
 
@@ -29,10 +29,7 @@ impl<'a> Found<'a> {
 
 /// The mesh at the path `wanted` or the only one below it; the only one of all if there is no
 /// path.
-pub(super) fn find_mesh<'a>(
-    layer: &'a Layer,
-    wanted: Option<&str>,
-) -> Result<Found<'a>, ReadError> {
+pub(super) fn find_mesh<'a>(layer: &'a Layer, wanted: Option<&str>) -> Result<Found<'a>, UsdError> {
     let mut meshes = Vec::new();
     for prim in &layer.prims {
         collect(prim, &mut Found { path: String::new(), chain: Vec::new() }, &mut meshes);
@@ -45,7 +42,7 @@ pub(super) fn find_mesh<'a>(
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         });
     }
-    let fault = |message| Err(ReadError { line: layer.num_lines, message });
+    let fault = |message| Err(UsdError { line: layer.num_lines, message });
     match (meshes.len(), wanted) {
         (1, _) => Ok(meshes.remove(0)),
         (0, None) => fault(no_mesh(layer)),

@@ -3,7 +3,7 @@
 //! USD multiplies rows of coordinates with matrices: `p' = p M`. The last operation in the order
 //! is the first to be applied to a point.
 
-use super::ReadError;
+use super::UsdError;
 use super::attributes::{Attributes, Found};
 use super::parse::{Prim, Value};
 use crate::angle::{cosine, sine};
@@ -63,7 +63,7 @@ fn rows(p: [f64; 3], linear: [[f64; 3]; 3]) -> [f64; 3] {
 
 /// From the coordinates of the last prim of `chain` to those of the stage; `None` if they are the
 /// same.
-pub(super) fn to_stage(chain: &[&Prim]) -> Result<Option<Affine>, ReadError> {
+pub(super) fn to_stage(chain: &[&Prim]) -> Result<Option<Affine>, UsdError> {
     let mut total = None;
     for prim in chain {
         if let Some((local, resets)) = local(prim)? {
@@ -76,7 +76,7 @@ pub(super) fn to_stage(chain: &[&Prim]) -> Result<Option<Affine>, ReadError> {
 
 /// From the coordinates of a prim to those of its parent, and whether instead to those of the
 /// stage; `None` if the prim has no operations.
-fn local(prim: &Prim) -> Result<Option<(Affine, bool)>, ReadError> {
+fn local(prim: &Prim) -> Result<Option<(Affine, bool)>, UsdError> {
     let mut attributes = Attributes::new(prim);
     let Some(order) = attributes.find("xformOpOrder") else { return Ok(None) };
     let names = match &order.value {
@@ -106,7 +106,7 @@ fn local(prim: &Prim) -> Result<Option<(Affine, bool)>, ReadError> {
 }
 
 /// The operation of this name; `None` if it has no value.
-fn operation(name: &str, attributes: &mut Attributes) -> Result<Option<Affine>, ReadError> {
+fn operation(name: &str, attributes: &mut Attributes) -> Result<Option<Affine>, UsdError> {
     let kind = name.strip_prefix("xformOp:").and_then(|rest| rest.split(':').next()).unwrap_or("");
     let Some(attribute) = attributes.find(name) else { return Ok(None) };
     let unknown = || {
@@ -191,7 +191,7 @@ fn orient(q: &[f64]) -> Affine {
     Affine { linear, offset: [0.0; 3] }
 }
 
-fn transform(found: &Found<[f64]>) -> Result<Affine, ReadError> {
+fn transform(found: &Found<[f64]>) -> Result<Affine, UsdError> {
     let row = |k: usize| [0, 1, 2].map(|j| found.value[4 * k + j]);
     let last_column = [3, 7, 11, 15].map(|k| found.value[k]);
     if last_column != [0.0, 0.0, 0.0, 1.0] {

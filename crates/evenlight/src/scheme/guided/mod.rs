@@ -36,6 +36,7 @@ mod segment;
 use super::contraction::Contraction;
 use super::rules::{Cuts, GuidePart, PatchRule, Row, Rules, Symmetry};
 use crate::net::{CNET_NODES, cnet_node};
+use crate::pairs::pairs;
 pub(super) use model::LAST_VALENCE;
 use model::Model;
 use sampling::sampled;
@@ -229,10 +230,7 @@ impl Ring {
         let [of_u, of_v] = [[1, 1], [1, 0], [0, 1]][which].map(|part| &segments[part]);
         let coef = |i: usize, j: usize| {
             let mut sum = vec![0.0; self.num_nodes()];
-            for (row, (k, l)) in square
-                .iter()
-                .zip((0..self.order()).flat_map(|k| (0..self.order()).map(move |l| (k, l))))
-            {
+            for (row, (k, l)) in square.iter().zip(pairs(self.order(), self.order())) {
                 let w = of_u[i][k] * of_v[j][l];
                 if w != 0.0 {
                     sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += w * x);
@@ -257,7 +255,7 @@ impl Ring {
         let along = matrix(4, |b| raised(b, self.sampled));
         let mut rows = vec![vec![0.0; CNET_NODES * n + 1]; self.num_border()];
         for (layer, k) in (0..LAYERS).flat_map(|m| (0..self.order()).map(move |k| (m, k))) {
-            for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+            for (i, j) in pairs(4, 4) {
                 let w = across[layer][i] * along[k][j];
                 add_border_coefficient(&mut rows[self.border_node(0, layer, k)], n, [i, j], w);
                 add_border_coefficient(&mut rows[self.border_node(1, layer, k)], n, [j, i], w);
@@ -270,7 +268,7 @@ impl Ring {
 /// Adds `w` b_ij: the tensor border, bi-3 coefficients that the nodes of a c-net would have over
 /// the unit square. b_00 is no part of it; its `w` is zero.
 fn add_border_coefficient(row: &mut [f64], n: usize, [i, j]: [usize; 2], w: f64) {
-    for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
+    for (a, b) in pairs(4, 4) {
         let weight = w * NODES_TO_BB[i][a] * NODES_TO_BB[j][b] / 36.0;
         if weight == 0.0 {
             continue;

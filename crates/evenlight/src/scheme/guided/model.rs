@@ -17,6 +17,7 @@ use evenlight_guide::guided::rounded::RoundedGuide;
 use super::monomials;
 use crate::angle::{cosine, sine};
 use crate::net::CNET_NODES;
+use crate::pairs::pairs;
 use crate::scheme::catmull_clark;
 use crate::scheme::contraction::Contraction;
 use crate::scheme::quadratic_attraction::contraction;
@@ -129,7 +130,7 @@ fn guide_of_cnet(n: usize, weights: GuideWeights) -> Vec<Vec<f64>> {
     let row = |(i, j): (usize, usize)| {
         let weight = |node: usize| {
             let mut sum = 0_i128;
-            for (k, l) in (0..=i).flat_map(|k| (0..=j).map(move |l| (k, l))) {
+            for (k, l) in pairs(i + 1, j + 1) {
                 let sign = if (i - k + j - l).is_multiple_of(2) { 1 } else { -1 };
                 sum += sign * binomial(i, k) * binomial(j, l) * i128::from(table[k][l][node]);
             }

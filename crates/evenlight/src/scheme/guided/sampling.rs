@@ -5,6 +5,7 @@
 //! the jets of U^i V^j follow exactly from the jets of U and V, though its degree is up to 30.
 
 use super::segment::{bb_at_end, bb_at_start, taylor_at_end, taylor_at_start};
+use crate::pairs::pairs;
 
 /// A jet, or the coefficients of a patch: the index along v runs fastest.
 type Square = Vec<f64>;
@@ -85,7 +86,7 @@ fn powers(jet: &Square, count: usize) -> Vec<Square> {
 /// The product of two jets.
 fn product(a: &Square, b: &Square, count: usize) -> Square {
     let entry = |i: usize, j: usize| {
-        let splits = (0..=i).flat_map(|k| (0..=j).map(move |l| (k, l)));
+        let splits = pairs(i + 1, j + 1);
         splits.map(|(k, l)| a[k * count + l] * b[(i - k) * count + j - l]).sum()
     };
     (0..count * count).map(|at| entry(at / count, at % count)).collect()

@@ -33,7 +33,9 @@
 //! The outer border of a ring, its three outer layers, has the functions of the level before. The
 //! functions of level 0 are the outer border of ring 0.
 
-/// Weights of functions, numbered by [`Layout::slot`].
+use crate::pairs::pairs;
+
+/// Weights of functions, numbered by [`Slots::slot`].
 pub(super) type Combination = Vec<(usize, f64)>;
 
 /// The number of coefficients next to a side that the knot there determines.
@@ -91,7 +93,7 @@ pub(super) type Coefficient = (usize, [usize; 2]);
 
 /// The numbering of the functions of one ring, for one sector.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
+pub(super) struct Slots {
     /// The bi-degree, 5 or 6.
     pub(super) degree: usize,
     at_sigma: Knot,
@@ -101,7 +103,7 @@ pub(super) struct Layout {
 /// A place of functions in a sector. Index p along u and q along v are 0, 1, 2 for L, M, R; m is
 /// the number inside an edge, 0 .. d-5.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum SlotPlace {
     /// At the corner on line s-1; q along the sector.
     OnLine { p: usize, q: usize },
     /// At the corner on the diagonal.
@@ -120,7 +122,7 @@ enum Place {
     Face { square: usize, m: usize, k: usize },
 }
 
-impl Layout {
+impl Slots {
     /// The layout of rings of bi-`degree` 5 or 6, with a hole of width sigma.
     pub(super) fn new(degree: usize, sigma: f64) -> Self {
         Self { degree, at_sigma: Knot(sigma), on_line: Knot(0.5) }
@@ -148,18 +150,18 @@ impl Layout {
     }
 
     /// The number of a function of a sector.
-    fn slot(self, place: Place) -> usize {
+    fn slot(self, place: SlotPlace) -> usize {
         let h = self.inner();
         let local = self.of_level();
         match place {
-            Place::OnLine { p, q } => 3 * p + q,
-            Place::OnDiagonal { p, q } => 9 + 3 * p + q,
-            Place::EdgeU { p, m } => 18 + 3 * m + p,
-            Place::EdgeV { m, q } => 18 + 3 * (h + m) + q,
-            Place::Line { m, q } => local + 3 * m + q,
-            Place::DiagonalAhead { m, q } => local + 3 * (h + m) + q,
-            Place::DiagonalBehind { p, m } => local + 3 * (2 * h + m) + p,
-            Place::Face { square, m, k } => local + 9 * h + (square * h + m) * h + k,
+            SlotPlace::OnLine { p, q } => 3 * p + q,
+            SlotPlace::OnDiagonal { p, q } => 9 + 3 * p + q,
+            SlotPlace::EdgeU { p, m } => 18 + 3 * m + p,
+            SlotPlace::EdgeV { m, q } => 18 + 3 * (h + m) + q,
+            SlotPlace::Line { m, q } => local + 3 * m + q,
+            SlotPlace::DiagonalAhead { m, q } => local + 3 * (h + m) + q,
+            SlotPlace::DiagonalBehind { p, m } => local + 3 * (2 * h + m) + p,
+            SlotPlace::Face { square, m, k } => local + 9 * h + (square * h + m) * h + k,
         }
     }
 
@@ -171,12 +173,12 @@ impl Layout {
 
     /// Products of weights along u and v at a corner. The corner on the next line has its own
     /// names: its first direction is v and its second one -u.
-    fn product(self, corner: Corner, u: [f64; 3], v: [f64; 3]) -> Combination {
-        let pairs = (0..3).flat_map(|p| (0..3).map(move |q| (p, q)));
+    fn product(self, corner: SlotCorner, u: [f64; 3], v: [f64; 3]) -> Combination {
+        let pairs = pairs(3, 3);
         let slot = |p, q| match corner {
-            Corner::Line => self.slot(Place::OnLine { p, q }),
-            Corner::Diagonal => self.slot(Place::OnDiagonal { p, q }),
-            Corner::NextLine => self.slots() + self.slot(Place::OnLine { p: q, q: 2 - p }),
+            SlotCorner::Line => self.slot(SlotPlace::OnLine { p, q }),
+            SlotCorner::Diagonal => self.slot(SlotPlace::OnDiagonal { p, q }),
+            SlotCorner::NextLine => self.slots() + self.slot(SlotPlace::OnLine { p: q, q: 2 - p }),
         };
         sparse(pairs.map(|(p, q)| (slot(p, q), u[p] * v[q])))
     }
@@ -188,16 +190,16 @@ impl Layout {
     pub(super) fn border(self, edge: usize, layer: usize, k: usize) -> Combination {
         let across = self.at_sigma.right(layer);
         let last = self.degree + 1 - LAYERS;
-        let inside = |place: &dyn Fn(usize) -> Place| {
+        let inside = |place: &dyn Fn(usize) -> SlotPlace| {
             sparse((0..3).map(|p| (self.slot(place(p)), across[p])))
         };
         match (edge, k) {
-            (0, 0..LAYERS) => self.product(Corner::Line, across, self.on_line.right(k)),
-            (0, k) if k < last => inside(&|p| Place::EdgeU { p, m: k - LAYERS }),
-            (0, k) => self.product(Corner::Diagonal, across, self.at_sigma.left(k - last)),
-            (_, 0..LAYERS) => self.product(Corner::NextLine, self.on_line.right(k), across),
-            (_, k) if k < last => inside(&|q| Place::EdgeV { m: k - LAYERS, q }),
-            (_, k) => self.product(Corner::Diagonal, self.at_sigma.left(k - last), across),
+            (0, 0..LAYERS) => self.product(SlotCorner::Line, across, self.on_line.right(k)),
+            (0, k) if k < last => inside(&|p| SlotPlace::EdgeU { p, m: k - LAYERS }),
+            (0, k) => self.product(SlotCorner::Diagonal, across, self.at_sigma.left(k - last)),
+            (_, 0..LAYERS) => self.product(SlotCorner::NextLine, self.on_line.right(k), across),
+            (_, k) if k < last => inside(&|q| SlotPlace::EdgeV { m: k - LAYERS, q }),
+            (_, k) => self.product(SlotCorner::Diagonal, self.at_sigma.left(k - last), across),
         }
     }
 
@@ -215,7 +217,7 @@ impl Layout {
             BEHIND if j < LAYERS => self.border(1, j, i),
             DIAGONAL if i < LAYERS && j < LAYERS => {
                 let [u, v] = [i, j].map(|k| self.at_sigma.right(k));
-                self.product(Corner::Diagonal, u, v)
+                self.product(SlotCorner::Diagonal, u, v)
             }
             _ => self.of_own_ring(square, [i, j]),
         })
@@ -226,23 +228,30 @@ impl Layout {
         let last = self.degree + 1 - LAYERS;
         let is_inner = |k: usize| (LAYERS..last).contains(&k);
         if is_inner(i) && is_inner(j) {
-            return vec![(self.slot(Place::Face { square, m: i - LAYERS, k: j - LAYERS }), 1.0)];
+            return vec![(
+                self.slot(SlotPlace::Face { square, m: i - LAYERS, k: j - LAYERS }),
+                1.0,
+            )];
         }
         // The number inside the edge, and across it.
         let [m, k] = if is_inner(i) { [i - LAYERS, j] } else { [j - LAYERS, i] };
         let (weights, slot): ([f64; 3], &dyn Fn(usize) -> usize) = match square {
-            AHEAD if k < LAYERS => (self.on_line.right(k), &|q| self.slot(Place::Line { m, q })),
-            AHEAD => (self.at_sigma.left(k - last), &|q| self.slot(Place::DiagonalAhead { m, q })),
-            BEHIND if k < LAYERS => {
-                (self.on_line.right(k), &|p| self.slots() + self.slot(Place::Line { m, q: 2 - p }))
+            AHEAD if k < LAYERS => {
+                (self.on_line.right(k), &|q| self.slot(SlotPlace::Line { m, q }))
             }
+            AHEAD => {
+                (self.at_sigma.left(k - last), &|q| self.slot(SlotPlace::DiagonalAhead { m, q }))
+            }
+            BEHIND if k < LAYERS => (self.on_line.right(k), &|p| {
+                self.slots() + self.slot(SlotPlace::Line { m, q: 2 - p })
+            }),
             BEHIND => {
-                (self.at_sigma.left(k - last), &|p| self.slot(Place::DiagonalBehind { p, m }))
+                (self.at_sigma.left(k - last), &|p| self.slot(SlotPlace::DiagonalBehind { p, m }))
             }
             _ if is_inner(i) => {
-                (self.at_sigma.right(k), &|q| self.slot(Place::DiagonalAhead { m, q }))
+                (self.at_sigma.right(k), &|q| self.slot(SlotPlace::DiagonalAhead { m, q }))
             }
-            _ => (self.at_sigma.right(k), &|p| self.slot(Place::DiagonalBehind { p, m })),
+            _ => (self.at_sigma.right(k), &|p| self.slot(SlotPlace::DiagonalBehind { p, m })),
         };
         sparse((0..3).map(|p| (slot(p), weights[p])))
     }
@@ -253,7 +262,7 @@ impl Layout {
         let h = self.inner();
         let (line, sigma) = (self.on_line, self.at_sigma);
         let both = |square: usize, u: [f64; 3], v: [f64; 3]| {
-            let pairs = (0..3).flat_map(|i| (0..3).map(move |j| [i, j]));
+            let pairs = pairs(3, 3).map(|(i, j)| [i, j]);
             sparse(pairs.map(|[i, j]| ((square, [i, j]), u[i] * v[j])))
         };
         let along_u = |square: usize, u: [f64; 3], m: usize| {
@@ -263,36 +272,36 @@ impl Layout {
             sparse((0..3).map(|j| ((square, [LAYERS + m, j]), v[j])))
         };
         let mut all = vec![Vec::new(); self.slots()];
-        for (p, q) in (0..3).flat_map(|p| (0..3).map(move |q| (p, q))) {
-            all[self.slot(Place::OnLine { p, q })] =
+        for (p, q) in pairs(3, 3) {
+            all[self.slot(SlotPlace::OnLine { p, q })] =
                 both(AHEAD, sigma.of_right(p), line.of_right(q));
-            all[self.slot(Place::OnDiagonal { p, q })] =
+            all[self.slot(SlotPlace::OnDiagonal { p, q })] =
                 both(DIAGONAL, sigma.of_right(p), sigma.of_right(q));
         }
-        for (p, m) in (0..3).flat_map(|p| (0..h).map(move |m| (p, m))) {
-            all[self.slot(Place::EdgeU { p, m })] = along_u(AHEAD, sigma.of_right(p), m);
-            all[self.slot(Place::EdgeV { m, q: p })] = along_v(BEHIND, m, sigma.of_right(p));
-            all[self.slot(Place::Line { m, q: p })] = along_v(AHEAD, m, line.of_right(p));
-            all[self.slot(Place::DiagonalAhead { m, q: p })] =
+        for (p, m) in pairs(3, h) {
+            all[self.slot(SlotPlace::EdgeU { p, m })] = along_u(AHEAD, sigma.of_right(p), m);
+            all[self.slot(SlotPlace::EdgeV { m, q: p })] = along_v(BEHIND, m, sigma.of_right(p));
+            all[self.slot(SlotPlace::Line { m, q: p })] = along_v(AHEAD, m, line.of_right(p));
+            all[self.slot(SlotPlace::DiagonalAhead { m, q: p })] =
                 along_v(DIAGONAL, m, sigma.of_right(p));
-            all[self.slot(Place::DiagonalBehind { p, m })] =
+            all[self.slot(SlotPlace::DiagonalBehind { p, m })] =
                 along_u(DIAGONAL, sigma.of_right(p), m);
         }
         for (square, m, k) in
             (0..3).flat_map(|square| (0..h).flat_map(move |m| (0..h).map(move |k| (square, m, k))))
         {
-            all[self.slot(Place::Face { square, m, k })] =
+            all[self.slot(SlotPlace::Face { square, m, k })] =
                 vec![((square, [LAYERS + m, LAYERS + k]), 1.0)];
         }
         all
     }
 
     /// The functions of a level of one sector from the layers beyond the border: weights of (edge,
-    /// layer, number along the edge), as in [`Layout::border`].
+    /// layer, number along the edge), as in [`Slots::border`].
     pub(super) fn functions_from_border(self) -> Vec<Vec<([usize; 3], f64)>> {
         let last = self.degree + 1 - LAYERS;
         let corner = |first: usize, across: [f64; 3], along: [f64; 3]| {
-            let pairs = (0..3).flat_map(|layer| (0..3).map(move |k| (layer, k)));
+            let pairs = pairs(3, 3);
             sparse(pairs.map(|(layer, k)| ([0, layer, first + k], across[layer] * along[k])))
         };
         let edge = |edge: usize, m: usize, across: [f64; 3]| {
@@ -300,15 +309,15 @@ impl Layout {
         };
         let sigma = self.at_sigma;
         let mut all = vec![Vec::new(); self.of_level()];
-        for (p, q) in (0..3).flat_map(|p| (0..3).map(move |q| (p, q))) {
-            all[self.slot(Place::OnLine { p, q })] =
+        for (p, q) in pairs(3, 3) {
+            all[self.slot(SlotPlace::OnLine { p, q })] =
                 corner(0, sigma.of_right(p), self.on_line.of_right(q));
-            all[self.slot(Place::OnDiagonal { p, q })] =
+            all[self.slot(SlotPlace::OnDiagonal { p, q })] =
                 corner(last, sigma.of_right(p), sigma.of_left(q));
         }
-        for (p, m) in (0..3).flat_map(|p| (0..self.inner()).map(move |m| (p, m))) {
-            all[self.slot(Place::EdgeU { p, m })] = edge(0, m, sigma.of_right(p));
-            all[self.slot(Place::EdgeV { m, q: p })] = edge(1, m, sigma.of_right(p));
+        for (p, m) in pairs(3, self.inner()) {
+            all[self.slot(SlotPlace::EdgeU { p, m })] = edge(0, m, sigma.of_right(p));
+            all[self.slot(SlotPlace::EdgeV { m, q: p })] = edge(1, m, sigma.of_right(p));
         }
         all
     }
@@ -316,7 +325,7 @@ impl Layout {
 
 /// A corner of the hole that a sector uses.
 #[derive(Clone, Copy, Debug)]
-enum Corner {
+enum SlotCorner {
     Line,
     Diagonal,
     NextLine,
