@@ -229,7 +229,7 @@ pub fn symmetrised(rules: &[StepRule; 6]) -> [StepRule; 6] {
 }
 
 /// The mirror that maps rule `number` (in [`RULES`]) to a rule of the same sector, and the number
-/// of that rule: itself but for 12 and 21.
+/// of that rule: itself, except that 12 and 21 change places.
 pub fn mirror_of(number: usize) -> (Mirror, usize) {
     match RULES[number] {
         (3, _) => (Mirror::Line, number),

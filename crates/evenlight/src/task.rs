@@ -214,8 +214,8 @@ pub(crate) fn for_each_chunk<T: Send>(
     });
 }
 
-/// Calls `take_one` on so many threads until nothing is left: it does one part of the work, or says
-/// `false`. One function for all kinds of work: threads are much code.
+/// Calls `take_one` on `threads` threads until nothing is left: it does one part of the work, or
+/// says `false`. One function for all kinds of work: threads are much code.
 fn on_threads(threads: usize, take_one: &(dyn Fn() -> bool + Sync)) {
     let work = || {
         let alone = Context { threads: NonZero::<usize>::MIN, watch: None };

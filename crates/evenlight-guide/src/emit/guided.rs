@@ -44,7 +44,7 @@ pub struct GuidedTable {
     /// The valence n.
     pub valence: usize,
     /// For each coefficient 6i + j of the piece of sector 0 the numerators of the 6n + 1 nodes,
-    /// numbered by [`CNet::index`]; that of e is rounded by itself.
+    /// numbered by [`CNet::index`]; the numerator of e is rounded by itself.
     pub coefs: Vec<Vec<i64>>,
     /// The numerators of the first coordinate of the cap's map, number 7i + j.
     pub cap_map: Vec<i64>,

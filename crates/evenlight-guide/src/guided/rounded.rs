@@ -1,8 +1,8 @@
-//! What a surface needs of a valence and a contraction, computed when it is asked for and rounded
-//! once.
+//! The numbers that a surface needs for a valence and a contraction, computed when they are asked
+//! for and rounded once.
 //!
-//! The tables of [`emit`](crate::emit) are for the speed of Catmull-Clark subdivision and valences
-//! up to 16. Everything else a library takes from here; at valence 32 it takes half a second.
+//! The tables of [`emit`](crate::emit) hold Catmull-Clark's contraction and valences up to 16. A
+//! library takes everything else from here; valence 32 needs half a second.
 
 use std::ops::RangeInclusive;
 
@@ -19,7 +19,7 @@ use crate::real::Real;
 /// The valences for which guides are computed, without 4.
 pub const VALENCES: RangeInclusive<usize> = 3..=32;
 
-/// The speeds lambda, ends excluded, for which guides are computed.
+/// The contractions lambda, ends excluded, for which guides are computed.
 pub const LAMBDAS: [f64; 2] = [0.3, 0.7];
 
 /// The guide of one valence and contraction.

@@ -24,7 +24,7 @@ use crate::scheme::FanLimit;
 pub(crate) struct FairCap {
     lines: FanLines,
     inside: PlainCap,
-    /// The length of the tangents of lines across the crease, that of y being 1.
+    /// The length of the tangents of lines across the crease; the length of y is 1.
     across: f64,
 }
 
@@ -69,7 +69,8 @@ impl FairCap {
             .collect()
     }
 
-    /// Of creases that of their cubic, of other lines cos(s theta) of it and sin(s theta) across.
+    /// Creases have the tangent of their cubic; other lines have cos(s theta) times this tangent
+    /// and sin(s theta) across.
     fn tangents_of_lines<const N: usize>(
         &self,
         rings: &Rings<N>,

@@ -96,7 +96,7 @@ fn center_in(space: Space, map: &[Complex]) -> [Complex; 6] {
         terms.iter().fold([0.0; 2], |[x, y], &(w, at)| [x + w * map[at][0], y + w * map[at][1]])
     };
     let (d, h) = (space.degree as f64, space.step());
-    // Taylor coefficients, those of order (1,0), (0,1), then (2,0), (1,1), (0,2), in steps h.
+    // Taylor coefficients of orders (1,0), (0,1), then (2,0), (1,1), (0,2), in steps h.
     let (u, v) = (
         combination([(6.0 * h, 7), (0.0, 0), (0.0, 0)]),
         combination([(6.0 * h, 1), (0.0, 0), (0.0, 0)]),

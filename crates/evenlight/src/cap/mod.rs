@@ -106,7 +106,7 @@ pub enum CapError {
         /// The degree asked for.
         cap: usize,
     },
-    /// The lines between the patches of a ring are not those of a cap.
+    /// The lines between the patches of a ring do not match the lines of a cap.
     #[error(
         "the patches of scheme {} meet the hole at other parameters than those of a cap when rings \
          do not contract like Catmull-Clark's; take guided5 or guided6",
@@ -312,16 +312,16 @@ impl<const N: usize> Cap<N> {
         which < per_sector && s < self.patches.len() / per_sector
     }
 
-    /// The patch that there is, in world coordinates.
+    /// [`Cap::patch`] for a patch that is known to exist.
     pub(crate) fn patch_at(&self, rings: &Rings<N>, s: usize, which: usize) -> Patch<N> {
         rings.to_world(self.rings, &self.patches[s * self.patches_per_sector() + which])
     }
 
-    /// [`Cap::eval`] of what is wanted alone, in a sector that there is.
+    /// [`Cap::eval`] for any [`Answer`], in a sector that is known to exist.
     pub(crate) fn eval_as<A: Answer<N>>(&self, rings: &Rings<N>, s: usize, [a, b]: [f64; 2]) -> A {
         let which = self.space.patch_at([a, b]);
         if a.max(b) == 0.0 && plain::is_plain(rings.rules()) {
-            // Derivatives may be parallel, and curvature is not that of the other sectors.
+            // Derivatives may be parallel, and curvature differs between sectors.
             let jet: Jet<N> = self.eval_in_patch(rings, s, which, [a, b]);
             let (normal, none) = (rings.normal(), f64::NAN);
             return A::from_parts(jet, |_| Shape { normal, gauss: none, mean: none });
@@ -329,7 +329,7 @@ impl<const N: usize> Cap<N> {
         self.eval_in_patch(rings, s, which, [a, b])
     }
 
-    /// [`Cap::eval_on`] of what is wanted alone, of a patch that there is.
+    /// [`Cap::eval_on`] for any [`Answer`], on a patch that is known to exist.
     pub(crate) fn eval_in_patch<A: Answer<N>>(
         &self,
         rings: &Rings<N>,

@@ -83,7 +83,7 @@ fn bending(sector: &Sector) -> Vec<Vec<f64>> {
     rows
 }
 
-/// The rows of the integral of |D^3 x|^2 over the hole, derivatives and area those of the plane.
+/// The rows of the integral of |D^3 x|^2 over the hole, with derivatives and area of the plane.
 pub(super) fn fairness(sector: &Sector, map: &[Complex]) -> Vec<Vec<f64>> {
     let mut rows = Vec::new();
     for (at, weight) in sector.nodes() {

@@ -130,7 +130,7 @@ impl<'a> Features<'a> {
         faces
     }
 
-    /// Whether two rings of faces around the vertex of `fan` are regular but for the vertex: the
+    /// Whether two rings of faces around the vertex of `fan` are regular except at the vertex: the
     /// direct and diagonal neighbours inside the fan are regular and smooth, those on its sharp
     /// edges lie on a regular crease.
     pub(crate) fn is_isolated(&self, fan: PlacedFan) -> bool {

@@ -82,7 +82,7 @@ impl Level {
         self.origins[v.index()]
     }
 
-    /// The sharpness of the refined part, from that of the coarse mesh.
+    /// The sharpness of the refined part, from the sharpness of the coarse mesh.
     pub(crate) fn sharpness(&self, coarse: &Topology, sharpness: &Sharpness) -> Sharpness {
         if sharpness.is_empty() {
             return Sharpness::default();

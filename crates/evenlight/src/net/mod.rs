@@ -35,6 +35,6 @@ pub(crate) const MAX_VALENCE: usize = 1024;
 pub(crate) struct NodeRef {
     /// Sectors to go on, counter-clockwise; may be negative.
     pub(crate) turn: isize,
-    /// The number of the node among those of its sector.
+    /// The number of the node among the nodes of its sector.
     pub(crate) node: usize,
 }

@@ -320,7 +320,7 @@ mod tests {
         }
     }
 
-    /// The rules are those of the fan seen from behind with the lines in reverse.
+    /// The rules equal the rules of the fan seen from behind with the lines in reverse.
     #[test]
     fn the_rules_are_symmetric() {
         for faces in FACES {

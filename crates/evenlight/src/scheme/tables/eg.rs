@@ -39,7 +39,7 @@ static TABLES: [&EgTable; 13] = [
     &eg_n16::TABLE,
 ];
 
-/// All weights of the Evolving-Guide rules of one valence but those of c_0.
+/// All weights of the Evolving-Guide rules of one valence, without the weights of c_0.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct EgWeights {
     /// For each of 11 21 12 22 31 32, for each r = 0..n-1, the weights of the 12 nodes of sector

@@ -60,7 +60,7 @@ static TABLES: [&QasTable; 13] = [
 /// For q_2..q_6, counted from 0, the images in the mirror that exchanges the lines of the sector.
 const Q_MIRRORED: [usize; 5] = [2, 4, 0, 3, 1];
 
-/// All weights of the Quadratic-Attraction rules of one valence but those of p.
+/// All weights of the Quadratic-Attraction rules of one valence, without the weights of p.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct QasWeights {
     /// For each of 11 21 12 22 31 32 the weights of the 12 nodes of sectors s + r, with r.

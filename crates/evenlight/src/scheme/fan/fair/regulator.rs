@@ -110,7 +110,7 @@ fn stacked(nodes: &Matrix, factor: f64) -> Matrix {
 }
 
 /// The least e^T P e = sum of e^T Q e + 2 v^T X e + v^T R v with e' = A e + B v, by doubling: after
-/// step k it is that of 2^k rings.
+/// step k it is the cost of 2^k rings.
 ///
 /// First v := v - R^-1 X e removes the cross term. Then with G = B R^-1 B^T and P_0 = Q,
 ///
