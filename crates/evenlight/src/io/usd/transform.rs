@@ -74,8 +74,8 @@ pub(super) fn to_stage(chain: &[&Prim]) -> Result<Option<Affine>, ReadError> {
     Ok(total)
 }
 
-/// From the coordinates of a prim to those of its parent, and whether instead to those of the
-/// stage; `None` if the prim has no operations.
+/// From the coordinates of a prim to its parent's, and whether it goes to the stage's instead;
+/// `None` if the prim has no operations.
 fn local(prim: &Prim) -> Result<Option<(Affine, bool)>, ReadError> {
     let mut attributes = Attributes::new(prim);
     let Some(order) = attributes.find("xformOpOrder") else { return Ok(None) };
