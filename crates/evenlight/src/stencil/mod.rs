@@ -45,8 +45,8 @@
 //! **At an extraordinary point itself** without a cap the row of the position gives the limit
 //! point. Derivatives do not exist there: their rows are NaN, as the answers of [`Surface::eval`].
 //!
-//! **What is meant.** Stencils belong to a [`Layout`] and take the default quadratics. A surface with
-//! a quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that point.
+//! **What is meant.** Stencils belong to a [`Layout`] and take the default quadratics. A surface
+//! with a quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that point.
 //! Caps are linear; a surface's stencils have its caps.
 
 mod backwards;
