@@ -46,8 +46,8 @@
 //! point. Derivatives do not exist there: their rows are NaN, as the answers of [`Surface::eval`].
 //!
 //! **What is meant.** Stencils belong to a [`Layout`] and take the default quadratics. A surface
-//! with a quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that point.
-//! Caps are linear; a surface's stencils have its caps.
+//! with a quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that
+//! point. Caps are linear; a surface's stencils have its caps.
 
 mod backwards;
 mod basis;
