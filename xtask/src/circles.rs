@@ -52,7 +52,7 @@ pub fn circles(files: &[(String, String)]) -> Vec<String> {
     circles.collect()
 }
 
-/// From each child of a module to those that it uses.
+/// From each child of a module to the children that it uses.
 type Arrows = BTreeMap<String, BTreeSet<String>>;
 
 /// What one file says of others.

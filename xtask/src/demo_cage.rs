@@ -69,7 +69,7 @@ const LEG: i32 = 7;
 const SEAT: i32 = 3;
 /// The column of the back in which the vertices of valence 5 are.
 const BACK: i32 = 2;
-/// The number of quads up the back, from the vertices of valence 5 to that of valence 6.
+/// The number of quads up the back, from the vertices of valence 5 to the vertex of valence 6.
 const ROWS: i32 = 3;
 /// The number of quads around the hole.
 const STEPS: i32 = 14;
@@ -183,7 +183,7 @@ impl Sheet {
         })
     }
 
-    /// The normal at every place: that of the faces around it.
+    /// The normal at every place: the normal of the faces around it.
     fn normals(&self, positions: &[Point]) -> Vec<Vector> {
         let mut normals = vec![[0.0; 3]; positions.len()];
         for face in &self.faces {

@@ -100,7 +100,7 @@ impl Row {
         cut("frame").or_else(|| cut("planes")).unwrap_or(own)
     }
 
-    /// A measure of every scheme over that of Catmull-Clark, schemes in the order of [`OTHERS`].
+    /// A measure of every scheme divided by Catmull-Clark's, schemes in the order of [`OTHERS`].
     fn ratios(&self, measure: fn(&Measures) -> f64) -> Vec<f64> {
         let cc = measure(&self.schemes[0]);
         self.schemes[1..].iter().map(|m| measure(m) / cc).collect()

@@ -322,7 +322,7 @@ fn line(out: &mut String, first: &str, numbers: impl Iterator<Item = f64>) -> fm
 /// A measure with its name.
 type Named = (&'static str, fn(&Measures) -> f64);
 
-/// The measures that are compared with those of QAS4.
+/// The measures that are compared with QAS4's.
 const RATIOS: [Named; 5] = [
     ("integral of grad H squared", |m| m.mean_energy),
     ("integral of grad K squared", |m| m.gauss_energy),

@@ -7,7 +7,7 @@
 //!
 //! # A tour along the pipeline
 //!
-//! Read a cage, OBJ, PLY or USD, and check it; all faults are named, with their lines in the file.
+//! Read a cage from OBJ, PLY or USD and check it; an error names all faults with their lines.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -73,7 +73,7 @@
 //! | [`complex`] | its patches, and the edges and vertices where they meet |
 //! | [`tessellate`] | triangles |
 //! | [`analyse`] | curvature, continuity, highlight lines, spectra |
-//! | [`io`] | OBJ, PLY, USD, glTF, STL, BezierView |
+//! | [`io`] | OBJ, PLY, USD, glTF, STL, BezierView, JSON |
 //! | `picture` (feature) | pictures with exact normals |
 //!
 //! # Features
@@ -83,15 +83,15 @@
 //!
 //! | feature | adds | needs |
 //! | --- | --- | --- |
-//! | `parallel` | all threads in tessellation and pictures; the bytes stay the same | rayon |
+//! | `parallel` | all threads in tessellation and pictures; the bytes stay the same | |
 //! | `picture` | module `picture`: pictures with exact normals, as PNG | png |
 //! | `derive` | rules of guided schemes derived when asked for: any contraction, valences to 32 | evenlight-guide |
 //! | `spectrum` | module `analyse::spectrum`: eigenvalues of the subdivision matrices | nalgebra |
 //!
 //! # Read on
 //!
-//! The chapters of the documentation are in [`docs`]: notation, surface, nets, derivation,
-//! tables, shape, files. `examples` has small programs: load, evaluate, patches.
+//! [`docs`] has the chapters of the documentation, among them a glossary. `examples` has small
+//! programs: load, evaluate, patches, a new pose, stencils.
 //!
 //! # What is not promised
 //!
@@ -133,7 +133,7 @@ pub use surface::{Layout, QuadId, Surface, SurfaceOptions};
 #[cfg(any(doc, doctest))]
 pub mod docs;
 
-/// The example of the crate's README is tested; that of the repository in `xtask`.
+/// Tests the example in the README of the crate; `xtask` tests the README of the repository.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -123,7 +123,7 @@ fn cube() -> Cage {
     Cage::solid(&positions, &faces)
 }
 
-/// A cube of which one face is two quads that meet in two edges, with a vertex of valence 2.
+/// A cube with one face cut into two quads that meet in two edges, with a vertex of valence 2.
 fn two_quads() -> Cage {
     let corner = |k: usize| [[0., 0.], [2., 0.], [2., 2.], [0., 2.]][k % 4];
     let mut positions: Vec<_> =

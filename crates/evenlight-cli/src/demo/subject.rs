@@ -106,7 +106,7 @@ impl Subject {
             self.surface().extraordinary_points().iter().zip(self.analyses[0].last_spans());
         let candidates = points.filter_map(|(p, span)| Some((p, p.vertex()?, span)));
         let of_valence = candidates.filter(|(p, ..)| p.valence == valence);
-        // The first of those that are equal but for rounding, as in a symmetric cage.
+        // The first of all that are equal to rounding, as in a symmetric cage.
         let better = |best: f64, span: f64| span > best * (1.0 + 1e-6);
         let (point, vertex, _) =
             of_valence.reduce(|best, other| if better(best.2, other.2) { other } else { best })?;

@@ -19,7 +19,7 @@ const PANEL: usize = 300;
 ///
 /// # Errors
 ///
-/// Wrong usage if the scheme has no eigenfunctions of guides; those of writing.
+/// Wrong usage if the scheme has no eigenfunctions of guides; errors of writing.
 pub fn write(
     folder: &Path,
     options: SurfaceOptions,

@@ -17,7 +17,7 @@ pub struct Defect {
 }
 
 impl Defect {
-    /// The jumps between what two patches say at one point, that of curvature in 1/unit.
+    /// The jumps between what two patches say at one point; the jump of curvature is in 1/unit.
     pub fn between(a: &SurfacePoint, b: &SurfacePoint) -> Self {
         let ([a1, a2], [b1, b2]) = (a.principal_curvatures(), b.principal_curvatures());
         Self {

@@ -314,7 +314,7 @@ fn derivative(patch: &Patch, parameter: usize) -> Patch {
     Patch::of(degree, (0..(degree[0] + 1) * (degree[1] + 1)).map(coef).collect())
 }
 
-/// |grad H|^2 |r_u x r_v|, or that of K, from the jet of r and those of its derivatives [r_u, r_v].
+/// |grad H|^2 |r_u x r_v|, or the same of K, from the jets of r and its derivatives [r_u, r_v].
 ///
 /// With the gradient in coordinates, |grad H|^2 = (G H_u^2 - 2 F H_u H_v + E H_v^2) / w^2.
 fn energy_density(r: &Jet, [ru, rv]: &[Jet; 2], by: CurvatureDerivative) -> f64 {

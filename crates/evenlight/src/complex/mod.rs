@@ -96,8 +96,8 @@ impl PatchVertexId {
 /// How the surface goes on across an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum EdgeKind {
-    /// Two patches in one parametrisation: C2 but at caps, whose joints are those of
-    /// [`cap`](crate::cap). Semi-sharp edges of the cage are smooth.
+    /// Two patches in one parametrisation: C2 but at caps; [`cap`](crate::cap) says how those
+    /// join. Semi-sharp edges of the cage are smooth.
     Smooth,
     /// Two patches that may form an angle, on an infinitely sharp edge of the cage.
     Sharp,
@@ -177,8 +177,8 @@ pub struct EdgeUse {
     pub side: u8,
     /// The part of the side, from lower to higher parameter.
     pub interval: [f64; 2],
-    /// Whether the side runs from the first vertex of the edge to the second. That of the first use
-    /// does, and that of a second does not.
+    /// Whether the side runs from the first vertex of the edge to the second. The side of the
+    /// first use does, the side of a second use does not.
     pub is_forward: bool,
 }
 

@@ -20,7 +20,7 @@ pub(super) struct Numbers {
     per_sector: Vec<usize>,
 }
 
-/// No patch: that of a net or sector in a face without a surface.
+/// No patch: a net or sector in a face without a surface has none.
 const NONE: u32 = u32::MAX;
 
 impl Numbers {

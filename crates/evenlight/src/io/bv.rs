@@ -22,10 +22,10 @@ use super::digits::Triple;
 use crate::patch::{MAX_DEGREE, Patch};
 use crate::surface::{PlacedPatch, Role};
 
-/// Writes `patches`, grouped by role; the color of `regular` is 0, that of ring k is k, that of
-/// `cap` one more than that of the last ring.
+/// Writes `patches`, grouped by role; `regular` has color 0, ring k has color k, and `cap` one
+/// more than the last ring.
 ///
-/// Regular patches are written as they come; those of rings and caps are held back until the end,
+/// Regular patches are written as they come; patches of rings and caps are held back until the end,
 /// to have each group in one piece. Coordinates are in the units of the cage, with the fewest
 /// digits from which the same `f64` is read again. Writes many small pieces: give it something with
 /// a buffer.

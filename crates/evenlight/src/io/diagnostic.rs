@@ -22,9 +22,9 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// What kind it is: a word that stays the same when messages change, as `repeated-vertex`.
     ///
-    /// Kinds of faults are those of [`MeshError::kind`] and [`obj::Reason::kind`], and `unreadable`
-    /// for a fault of another format; of notices `unused-vertices`, `unsupported-tag`, `not-kept`
-    /// and `remark`.
+    /// [`MeshError::kind`] and [`obj::Reason::kind`] name the kinds of faults; `more-lines` counts
+    /// further lines of OBJ, and `unreadable` is a fault of another format. Notices are
+    /// `unused-vertices`, `unsupported-tag`, `not-kept` or `remark`.
     pub kind: &'static str,
     /// What is wrong, where, and what to do, in the numbers of the file.
     pub message: String,

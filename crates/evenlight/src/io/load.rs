@@ -149,8 +149,8 @@ impl Naming {
         }
     }
 
-    /// The line where a fault of a mesh with `tags` is to be mended: that of the tag, or else the
-    /// first face, or else the first vertex that it is about.
+    /// The line where a fault of a mesh with `tags` is to be mended: the line of the tag, or else
+    /// of the first face, or else of the first vertex that the fault is about.
     fn line(&self, fault: &MeshError, tags: &Tags) -> Option<u32> {
         match (fault, self) {
             (

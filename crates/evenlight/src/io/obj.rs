@@ -81,8 +81,8 @@ pub struct Obj {
 /// # Errors
 ///
 /// The first 20 lines with a number or a corner that cannot be read, or that is out of range,
-/// and how many more there are; one fault per line. Reading ends at the first thing of which
-/// there are 2^32 or more (lines, vertices, faces, corners).
+/// and how many more there are; one fault per line. Reading ends as soon as there
+/// are 2^32 lines, vertices, faces or corners.
 ///
 /// ```
 /// use evenlight::io::obj;

@@ -16,8 +16,8 @@ const HEADER: &[u8; 80] =
 
 /// Writes `mesh` as binary STL. Writes many small pieces: give it something with a buffer.
 ///
-/// The normals are those of the flat triangles (`0 0 0` if the corners are on a line), as the
-/// format demands, not those of the surface.
+/// The normals are normals of the flat triangles (`0 0 0` if the corners are on a line), as the
+/// format demands, not of the surface.
 ///
 /// # Errors
 ///

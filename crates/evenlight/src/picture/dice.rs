@@ -119,7 +119,7 @@ impl Cell {
         Some(vec![quarter(0, 0), quarter(2, 0), quarter(0, 2), quarter(2, 2)])
     }
 
-    /// The points at quarters of the side, those of the cell taken over.
+    /// The points at quarters of the side; the points of the cell are taken over.
     fn refined(&self, surface: &Surface, camera: &Camera) -> Option<[[Vector; 5]; 5]> {
         let mut grid = [[[0.0; 3]; 5]; 5];
         for (i, row) in grid.iter_mut().enumerate() {

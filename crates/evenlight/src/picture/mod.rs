@@ -72,7 +72,7 @@ pub enum Style {
     Highlight,
     /// The Gauss curvature K, with a colour bar.
     Gauss,
-    /// The mean curvature H, with a colour bar. Its sign is that of the surface's orientation
+    /// The mean curvature H, with a colour bar. Its sign follows the surface's orientation,
     /// even where the back is seen: convex bodies have H < 0.
     Mean,
     /// The layout of the patches: regular ones green, rings in gold and red by turns.

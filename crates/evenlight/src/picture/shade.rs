@@ -76,7 +76,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// The normal along right, up and to the eye; that of the side which the eye sees.
+    /// The normal of the side that the eye sees, along right, up and to the eye.
     fn facing_normal(&self, seen: &Seen) -> Vector {
         let n = self.camera.turned(seen.point.normal);
         match n[2].partial_cmp(&0.0) {

@@ -1,5 +1,5 @@
 //! Basis functions with their derivatives as weights of coefficients, and the change between the
-//! parameters of a sector and those of its quad.
+//! parameters of a sector and the parameters of its quad.
 
 use crate::patch::basis::BasisJet;
 

@@ -34,21 +34,21 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! **Exactness.** The rows of positions sum to 1, those of derivatives to 0, and results are those
-//! of [`Surface`] to rounding, with every scheme, at boundaries, creases, caps and seams.
+//! **Exactness.** The rows of positions sum to 1, the rows of derivatives to 0. Results agree with
+//! [`Surface`] to rounding, with every scheme, at boundaries, creases, caps and seams.
 //! Derivatives of order k are exact relative to (lambda / sigma^k)^l times the extent of the net,
 //! in ring l around a point whose rings shrink by lambda and their parameters by sigma. That is
-//! their own size at any depth, but for what cancels: the height above the limit tangent plane is
-//! lambda^l times as small as the tangential part of a derivative, and in one sum of weights it
-//! cannot keep digits of its own. So curvature that is computed of results has a relative error of
+//! their own size at any depth. But the height above the limit tangent plane is lambda^l times as
+//! small as the tangential part of a derivative, and one sum of weights cannot keep digits for it
+//! alone. So curvature that is computed from results has a relative error of
 //! about 1e-16 lambda^-l, and is lost after some fifty rings; [`Surface::eval`] has it exact.
 //!
-//! **At an extraordinary point itself** without a cap the row of the position is that of the limit
+//! **At an extraordinary point itself** without a cap the row of the position gives the limit
 //! point. Derivatives do not exist there: their rows are NaN, as the answers of [`Surface::eval`].
 //!
-//! **What is meant.** Stencils are those of a [`Layout`]: of the default quadratics. A surface with
-//! a quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that point.
-//! Caps are linear; a surface's stencils have its caps.
+//! **What is meant.** Stencils belong to a [`Layout`] and take the default quadratics. A surface
+//! with a quadratic of its own ([`Surface::set_quadratic`]) is not linear in its cage around that
+//! point. Caps are linear; a surface's stencils have its caps.
 
 mod backwards;
 mod basis;
@@ -299,7 +299,7 @@ fn linear_net(layout: &Layout, primvar: &Primvar) -> Option<LinearNet> {
     Some(LinearNet { topology: Arc::new(topology), columns: value_columns(primvar, net.values) })
 }
 
-/// The columns of a face-varying primvar: its values, of which vertices have these.
+/// The columns of a face-varying primvar: its values; `of_vertex` says which vertex has which.
 fn value_columns(primvar: &Primvar, of_vertex: Vec<u32>) -> Columns {
     Columns::of_values(primvar.values.len() / usize::max(primvar.width, 1), of_vertex)
 }

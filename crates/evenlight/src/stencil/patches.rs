@@ -38,7 +38,7 @@ impl PatchStencils {
         Ok(Self { firsts, stencils })
     }
 
-    /// The rows of all patches, one after the other, those of a patch with the index along v
+    /// The rows of all patches, one after the other. In the rows of a patch the index along v is
     /// fastest.
     pub fn stencils(&self) -> &Stencils {
         &self.stencils

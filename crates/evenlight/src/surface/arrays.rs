@@ -1,7 +1,7 @@
 //! Evaluation from arrays into arrays, for callers from other languages.
 //!
 //! A row of the answers holds the N numbers of the position, or of the value of a primvar, then
-//! those of its derivatives up to the order asked for:
+//! the numbers of its derivatives up to the order asked for:
 //!
 //! ```text
 //!   order 0: p              order 1: p u v            order 2: p u v uu uv vv
@@ -169,7 +169,7 @@ impl<const N: usize> Surface<N> {
         }
     }
 
-    /// [`Surface::eval_arrays`] at places of faces; `corners` are those of n-gons, 0 for quads.
+    /// [`Surface::eval_arrays`] at places of faces; `corners` are corners of n-gons, 0 for quads.
     ///
     /// # Errors
     ///

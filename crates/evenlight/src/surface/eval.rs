@@ -86,8 +86,9 @@ impl<const N: usize> Surface<N> {
         self.eval_as(quad, u, v)
     }
 
-    /// Evaluates at many places (quad, u, v), with feature `parallel` on all threads. Answer k is
-    /// that of place k, the same bits as from [`Surface::eval_as`]; NaN where there is no surface.
+    /// Evaluates at many places (quad, u, v), with feature `parallel` on all threads. Answer k
+    /// belongs to place k and has the same bits as from [`Surface::eval_as`]. It is NaN where there
+    /// is no surface.
     ///
     /// On a large surface most of the time goes into fetching control points; therefore places are
     /// taken in the order of their quads.
@@ -137,7 +138,7 @@ impl<const N: usize> Surface<N> {
     }
 }
 
-/// The numbers of the places, those of neighbouring quads together.
+/// The numbers of the places, in an order that keeps neighbouring quads together.
 fn order_of_quads(places: &[(QuadId, f64, f64)], num_quads: usize) -> Vec<u32> {
     /// So many quads count as neighbours.
     const NEAR: usize = 64;

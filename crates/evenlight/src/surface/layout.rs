@@ -57,7 +57,7 @@ pub struct Layout {
     net_vertices: Vec<VertexId>,
     /// Where the net of every point begins, and the number of all.
     net_starts: Vec<usize>,
-    /// Where the rules come from, and those of primvars are to come from.
+    /// Where rules come from, for positions and for primvars.
     cache: RuleCache,
     /// A hash of topology, tags and options.
     fingerprint: u64,

@@ -168,9 +168,9 @@ impl Surface {
     /// 0..1; `None` if the face is omitted, there is no such quad or a parameter is NaN.
     ///
     /// At an extraordinary point itself, unless a cap is there, the position is the limit point and
-    /// the normal the limit normal; derivatives do not exist there and are NaN, nor does curvature
-    /// but for schemes with a quadratic or a guide, where it is that of q or of the guide
-    /// ([`Rings::center_curvature`]). Anywhere else, however near, all are exact to rounding
+    /// the normal the limit normal; derivatives do not exist there and are NaN. Schemes with a
+    /// quadratic or a guide take the curvature from it ([`Rings::center_curvature`]); with other
+    /// schemes curvature is NaN too. Anywhere else, however near, all are exact to rounding
     /// ([`Rings::eval`]).
     pub fn eval(&self, quad: QuadId, u: f64, v: f64) -> Option<SurfacePoint> {
         self.eval_as(quad, u, v)

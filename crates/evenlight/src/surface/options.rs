@@ -13,14 +13,14 @@ pub struct SurfaceOptions {
     pub rules: RuleSet,
     /// How fast its rings contract.
     pub contraction: Contraction,
-    /// The rule at the boundary; `None` for that of the cage's tags.
+    /// The rule at the boundary; `None` takes the rule of the cage's tags.
     pub boundary: Option<BoundaryRule>,
     /// The rings beside infinitely sharp creases and the boundary.
     pub creases: CreaseRings,
 }
 
-/// The rings of a vertex on an infinitely sharp crease or the boundary, of which the faces on one
-/// side are not two.
+/// The rings of a vertex on an infinitely sharp crease or the boundary where one side has not two
+/// faces.
 ///
 /// The curve of the crease is the same with both, the cubic spline of its vertices, and so is all
 /// of the surface but for these points. Darts, corners and semi-sharp features keep Catmull-Clark's

@@ -1,5 +1,5 @@
 //! Where patches lie in parametric quads, and the change between the parameters of a sector and
-//! those of its quad.
+//! the parameters of its quad.
 //!
 //! A sector's a runs from the extraordinary point to the next corner of its square, b to the one
 //! before:

@@ -31,9 +31,9 @@ pub(super) enum PrimvarSurface {
     Smooth2(Surface<2>),
     Smooth3(Surface<3>),
     Smooth4(Surface<4>),
-    /// There is no surface, which does not happen: the smooth extraordinary points of a primvar are
-    /// among those of the positions, for which the scheme has rules, and the others have those of
-    /// Catmull-Clark.
+    /// There is no surface. This does not happen: the smooth extraordinary points of a primvar are
+    /// extraordinary points of the positions too, so the scheme has rules for them. All other
+    /// points have the rules of Catmull-Clark.
     None,
 }
 
@@ -139,7 +139,7 @@ impl Surface {
     /// 0..1: its first N numbers, those beyond its width being 0. `None` where [`Surface::eval`]
     /// is, and if there is no such primvar.
     ///
-    /// Derivatives do not exist (NaN) where those of a surface do not: at extraordinary points.
+    /// Derivatives do not exist (NaN) at extraordinary points, as for positions.
     ///
     /// ```
     /// use evenlight::io::load::Format;

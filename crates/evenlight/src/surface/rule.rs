@@ -13,7 +13,7 @@ use crate::scheme::{SchemeKind, is_fair};
 pub enum PointRule {
     /// The chosen scheme.
     Scheme,
-    /// Catmull-Clark's rings: exactly those of its subdivision with creases and corners.
+    /// Catmull-Clark's rings, exactly as its subdivision with creases and corners has them.
     CatmullClark(Reason),
     /// Fair rings beside a crease, which is the reason; only with [`CreaseRings::Fair`].
     FairCrease(Reason),
@@ -55,8 +55,8 @@ impl PointRule {
         Self::CatmullClark(reason)
     }
 
-    /// A word for files and tables: the name of the scheme whose rings the point has, `chosen`
-    /// being that of the surface, or "fair-crease".
+    /// A word for files and tables: "fair-crease", or the name of the scheme whose rings the
+    /// point has. `chosen` is the scheme of the surface.
     pub fn name(self, chosen: SchemeKind) -> &'static str {
         match self {
             Self::Scheme => chosen.name(),

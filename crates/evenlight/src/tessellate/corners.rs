@@ -107,7 +107,7 @@ enum Side {
     All,
     /// At a vertex of the cage the value with this number.
     Value(u32),
-    /// Inside a seam that of a face.
+    /// Inside a seam: the value of a face.
     Face(FaceId),
 }
 

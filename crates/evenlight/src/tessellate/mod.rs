@@ -474,7 +474,7 @@ impl Diagonal {
         }
     }
 
-    /// The diagonal of which [`Diagonal::cut`] made these triangles: only with the rising one
+    /// The diagonal along which [`Diagonal::cut`] made these triangles: only with the rising one
     /// do both begin at the same corner.
     fn of(first: [u32; 3], second: [u32; 3]) -> Self {
         if first[0] == second[0] { Self::Rising } else { Self::Falling }

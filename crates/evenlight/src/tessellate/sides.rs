@@ -131,7 +131,7 @@ fn ends(topology: &Topology, edges: &[HalfEdgeId]) -> Vec<VertexId> {
     ends
 }
 
-/// The faces around `v` between one infinitely sharp edge and the next, those that have a surface.
+/// The faces with a surface around `v`, between one infinitely sharp edge and the next.
 /// Omitted faces separate nothing: the surface goes on under them.
 fn fans(surface: &Surface, v: VertexId) -> Vec<Vec<FaceId>> {
     let topology = surface.topology();
