@@ -28,7 +28,8 @@
 //!    ([`block`]).
 //! 4. **K that is local** ([`local`]). The optimal K reaches all sectors, with small weights.
 //!    Iteration finds the best K on the nodes that Quadratic-Attraction rules use; it costs .1 % of
-//! J. 5. **q** ([`rules`]). The quadratic of a net is the one with the least cost: it minimises
+//!    J.
+//! 5. **q** ([`rules`]). The quadratic of a net is the one with the least cost: it minimises
 //!    e^T P e, where P is the cost-to-go of e.
 //!
 //! Three schemes follow. **fair4** has the local K and q as part of the state, in the layout of

@@ -23,8 +23,8 @@ pub struct Diagnostic {
     /// What kind it is: a word that stays the same when messages change, as `repeated-vertex`.
     ///
     /// [`MeshError::kind`] and [`obj::Reason::kind`] name the kinds of faults; `more-lines` counts
-    /// further lines of OBJ, and `unreadable` is a fault of another format, or a file that cannot be
-    /// opened. Notices are `unused-vertices`, `unsupported-tag`, `not-kept` or `remark`.
+    /// further lines of OBJ, and `unreadable` is a fault of another format, or a file that cannot
+    /// be opened. Notices are `unused-vertices`, `unsupported-tag`, `not-kept` or `remark`.
     pub kind: &'static str,
     /// What is wrong, where, and what to do, in the numbers of the file.
     pub message: String,
