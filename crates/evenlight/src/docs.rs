@@ -27,3 +27,4 @@ chapter!(basis, "10-basis.md");
 chapter!(boundaries_and_creases, "11-boundaries-and-creases.md");
 chapter!(files, "12-files.md");
 chapter!(opensubdiv, "13-opensubdiv.md");
+chapter!(glossary, "14-glossary.md");

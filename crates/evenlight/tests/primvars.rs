@@ -113,15 +113,6 @@ fn feature(name: &str, rule: FaceVaryingRule) -> Mesh {
     mesh
 }
 
-const RULES: [FaceVaryingRule; 6] = [
-    FaceVaryingRule::None,
-    FaceVaryingRule::CornersOnly,
-    FaceVaryingRule::CornersPlus1,
-    FaceVaryingRule::CornersPlus2,
-    FaceVaryingRule::Boundaries,
-    FaceVaryingRule::All,
-];
-
 const TEXTURED: [&str; 6] = [
     "uv_concave.obj",
     "uv_creased_seam.obj",
@@ -134,7 +125,9 @@ const TEXTURED: [&str; 6] = [
 /// Weights sum to 1 on both sides of every seam: one value everywhere stays so.
 #[test]
 fn a_constant_primvar_is_constant() {
-    for (name, rule) in TEXTURED.into_iter().flat_map(|name| RULES.map(|rule| (name, rule))) {
+    for (name, rule) in
+        TEXTURED.into_iter().flat_map(|name| FaceVaryingRule::ALL.map(|rule| (name, rule)))
+    {
         let mut mesh = feature(name, rule);
         mesh.primvars[0].values.fill(3.0);
         let surface = Surface::build(Cage::new(mesh).unwrap(), options(SchemeKind::Qas4)).unwrap();

@@ -448,15 +448,6 @@ fn distance_from_limit(builder: &StencilBuilder, primvar: &Primvar, steps: usize
     limits.iter().zip(numbers).map(|(x, at)| (x - values[at]).abs()).fold(0.0, f64::max)
 }
 
-const RULES: [FaceVaryingRule; 6] = [
-    FaceVaryingRule::None,
-    FaceVaryingRule::CornersOnly,
-    FaceVaryingRule::CornersPlus1,
-    FaceVaryingRule::CornersPlus2,
-    FaceVaryingRule::Boundaries,
-    FaceVaryingRule::All,
-];
-
 /// Feature cages with texture coordinates; with them a varying and a vertex primvar.
 fn textured(rule: FaceVaryingRule) -> Vec<(String, Cage)> {
     let cages = common::feature_cages().into_iter().filter(|(name, _)| name.starts_with("uv_"));
@@ -476,7 +467,9 @@ fn textured(rule: FaceVaryingRule) -> Vec<(String, Cage)> {
 
 #[test]
 fn primvars_are_those_of_the_surface() {
-    for (rule, scheme) in RULES.into_iter().flat_map(|rule| SchemeKind::ALL.map(|s| (rule, s))) {
+    for (rule, scheme) in
+        FaceVaryingRule::ALL.into_iter().flat_map(|rule| SchemeKind::ALL.map(|s| (rule, s)))
+    {
         for (name, cage) in textured(rule) {
             let surface = Surface::build(cage, options(scheme)).unwrap();
             // Close to points at seams derivatives of primvars have lost digits themselves.
@@ -511,7 +504,7 @@ fn primvars_are_those_of_the_surface() {
 /// are below .75 here.
 #[test]
 fn refined_primvars_approach_their_limits() {
-    for (name, cage) in RULES.into_iter().flat_map(textured) {
+    for (name, cage) in FaceVaryingRule::ALL.into_iter().flat_map(textured) {
         if cage.topology().faces().iter().any(|corners| corners.len() != 4) {
             continue;
         }

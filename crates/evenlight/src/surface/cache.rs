@@ -82,7 +82,7 @@ struct Entry {
 /// What rules depend on, and nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
-    /// A scheme at a valence; for contractions by a number that with its bits.
+    /// A scheme at a valence. A contraction is the number of its kind and the bits of lambda.
     Scheme {
         scheme: SchemeKind,
         rules: RuleSet,
@@ -104,8 +104,8 @@ impl Default for RuleCache {
 }
 
 impl RuleCache {
-    /// A cache of its own that holds rules of so many weights, of 16 bytes each; but always those
-    /// that were asked for last. Those of a scheme at one valence are some 10,000.
+    /// A cache of its own that holds rules of up to this number of weights, of 16 bytes each. It
+    /// always holds the rules that were asked for last, however large they are.
     pub fn with_capacity(weights: usize) -> Self {
         Self { capacity: weights, kept: Arc::default() }
     }
